@@ -1,0 +1,56 @@
+#pragma once
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "acquisition/bake.h"
+#include "acquisition/brdf_samples.h"
+#include "acquisition/capture.h"
+#include "acquisition/lights.h"
+#include "acquisition/normals.h"
+#include "engine/scene/surface.h"
+
+namespace nacre {
+
+struct AcquireOptions {
+    CalibrationOptions calibration;
+    NormalOptions normals;
+    SampleOptions samples;
+    RegressionOptions regression;
+    BakeOptions bake;
+    size_t byteBudget = ObservationReader::kDefaultByteBudget;
+
+    void setThreads(int threads);
+};
+
+// Called with the stage's name and its finished share in [0, 1].
+using Progress = std::function<void(const std::string&, double)>;
+
+struct StageTime {
+    std::string stage;
+    double seconds = 0;
+};
+
+// Normals alone: the first half of the chain.
+struct NormalEstimate {
+    Rig rig;
+    NormalMap normals;
+    size_t pixelsWithoutNormal = 0; // of the mask
+    std::vector<StageTime> times;
+};
+
+struct Acquisition {
+    Surface surface;
+    Rig rig;
+    SampleCounts samples;
+    size_t pixelsWithoutNormal = 0;
+    std::vector<StageTime> times;
+};
+
+// Photographs -> lights -> normals.
+NormalEstimate estimateCaptureNormals(const Capture& capture, const AcquireOptions& options, const Progress& progress);
+
+// Photographs -> lights -> normals -> samples -> BRDF table: the whole chain, each photograph read once.
+Acquisition acquire(const Capture& capture, const AcquireOptions& options, const Progress& progress);
+
+} // namespace nacre

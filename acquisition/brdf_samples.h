@@ -1,0 +1,43 @@
+#pragma once
+#include <cstdint>
+#include <vector>
+
+#include "acquisition/normals.h"
+#include "shared/brdf_coords.h"
+
+namespace nacre {
+
+// M observations of one material.
+struct BrdfSamples {
+    TableDomain domain;
+    std::vector<glm::vec3> unit;   // coordinates on the table's unit cube (brdf_coords.h)
+    std::vector<glm::vec3> values; // f in 1/sr, up to the capture's scale factor
+    std::vector<float> weights;    // trust, > 0
+
+    size_t size() const { return values.size(); }
+};
+
+struct SampleOptions {
+    // Rejected below: at grazing light f = I / (E n.l) divides noise by little.
+    float leastCosine = 0.1f;
+    // An observation below this share of what Lambert predicts is a cast shadow.
+    float shadowShare = 0.3f;
+    // At most this many samples; pixels are thinned evenly by a hash of their position.
+    size_t most = 400000;
+    int threads = 0;
+};
+
+struct SampleCounts {
+    size_t used = 0;
+    size_t shadowed = 0; // attached, cast or grazing
+    size_t saturated = 0;
+    size_t withoutNormal = 0; // observations of pixels that have none
+    size_t thinned = 0;       // left out because `most` was reached
+};
+
+// Adds f_i = I_i / (E_i n.l_i) of a block's pixels, v = (0,0,1). `share` of the pixels is kept, so that the capture's
+// total stays below `most`.
+void gatherSamples(const Observations& block, const std::vector<PixelNormal>& normals, const std::vector<Light>& lights,
+                   double share, const SampleOptions& options, BrdfSamples& samples, SampleCounts& counts);
+
+} // namespace nacre

@@ -1,0 +1,213 @@
+#include "acquisition/capture.h"
+
+#include <algorithm>
+#include <numeric>
+#include <set>
+
+#include <fmt/format.h>
+
+#include "acquisition/capture_layouts.h"
+#include "acquisition/picture_files.h"
+#include "engine/scene/error.h"
+
+namespace nacre {
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr size_t kFewestPhotographs = 3; // a normal has two degrees of freedom, the albedo is the third
+constexpr const char* kLayouts =
+    "capture.json; filenames.txt with light_directions.txt (DiLiGenT); one .lp file here or above, beside its "
+    "photographs "
+    "(RTI); or photographs NAME.0.*, NAME.1.*, ... with NAME.mask.* (University of Washington)";
+
+LayoutContents readLayout(const fs::path& folder, const CaptureOptions& options)
+{
+    if (!fs::is_directory(folder)) {
+        throw Error(folder, fs::exists(folder) ? "is no folder" : "does not exist", "the folder of a capture");
+    }
+    auto contents = readJsonLayout(folder);
+    if (!contents) {
+        contents = readDiligentLayout(folder);
+    }
+    if (!contents) {
+        contents = readRtiLayout(folder, options.rig);
+    }
+    if (!contents) {
+        contents = readUwLayout(folder);
+    }
+    if (!contents) {
+        throw Error(folder, "holds no capture", kLayouts);
+    }
+    contents->capture.folder = folder;
+    if (contents->capture.name.empty()) {
+        contents->capture.name = fs::weakly_canonical(folder).filename().string();
+    }
+    return *contents;
+}
+
+void applyOptions(LayoutContents& contents, const CaptureOptions& options)
+{
+    if (!options.rig.empty()) {
+        assignLights(contents, loadLightFile(options.rig), options.rig);
+    }
+    if (!options.mirrorSphere.empty()) {
+        contents.capture.mirrorSphere = readSphereFolder(options.mirrorSphere);
+    }
+    if (!options.diffuseSphere.empty()) {
+        contents.capture.diffuseSphere = readSphereFolder(options.diffuseSphere);
+    }
+    if (!options.mask.empty()) {
+        contents.masks = {options.mask};
+    }
+    if (contents.masks.size() > 1) {
+        throw Error(contents.masks[1], fmt::format("is a mask beside {}", contents.masks[0].filename().string()),
+                    "one, or --mask to choose");
+    }
+}
+
+void requireSphereCount(const std::optional<SpherePhotographs>& sphere, const LayoutContents& contents)
+{
+    const size_t expected = contents.capture.photographs.size();
+    if (sphere && sphere->photographs.size() != expected) {
+        throw Error(sphere->source,
+                    fmt::format("has {} photographs of a sphere, {} has {} of the object", sphere->photographs.size(),
+                                contents.listing.string(), expected),
+                    "one of the sphere for each of the object");
+    }
+}
+
+void requireCounts(const LayoutContents& contents)
+{
+    const Capture& capture = contents.capture;
+    if (capture.photographs.size() < kFewestPhotographs) {
+        throw Error(contents.listing, fmt::format("has {} photographs", capture.photographs.size()),
+                    fmt::format("at least {}, each under another light", kFewestPhotographs));
+    }
+    requireSphereCount(capture.mirrorSphere, contents);
+    requireSphereCount(capture.diffuseSphere, contents);
+}
+
+void requireSphereMask(const std::optional<SpherePhotographs>& sphere)
+{
+    if (sphere && !sphere->maskFile.empty()) {
+        const ImageHeader header = readImageHeader(sphere->photographs[0].exposures[0].file);
+        loadMask(sphere->maskFile, header.width, header.height);
+    }
+}
+
+// The light of each photograph where the file names photographs as the capture does; empty where it names none of
+// them, as a rig that was calibrated with other photographs, or where names repeat. Throws Error where it names some.
+std::vector<size_t> lightsByName(const LightFile& lights, const std::vector<Photograph>& photographs,
+                                 const fs::path& file)
+{
+    const auto stemOf = [](std::string name) {
+        std::replace(name.begin(), name.end(), '\\', '/');
+        return lowerCase(fs::path(name).stem().string());
+    };
+    std::vector<size_t> order;
+    const Photograph* unnamed = nullptr;
+    for (const Photograph& photograph : photographs) {
+        const auto named =
+            std::find_if(lights.photographs.begin(), lights.photographs.end(),
+                         [&](const std::string& name) { return stemOf(name) == stemOf(photograph.name); });
+        if (named == lights.photographs.end()) {
+            unnamed = &photograph;
+        } else {
+            order.push_back(named - lights.photographs.begin());
+        }
+    }
+    if (unnamed && !order.empty()) {
+        throw Error(
+            file,
+            fmt::format("names {} of {} photographs, but not {}", order.size(), photographs.size(), unnamed->name),
+            "a light for each photograph");
+    }
+    return order;
+}
+
+} // namespace
+
+std::string describe(CaptureLayout layout)
+{
+    switch (layout) {
+    case CaptureLayout::uw:
+        return "University of Washington";
+    case CaptureLayout::diligent:
+        return "DiLiGenT";
+    case CaptureLayout::rti:
+        return "RTI";
+    case CaptureLayout::json:
+        break;
+    }
+    return "capture.json";
+}
+
+Photograph photographOf(const fs::path& file)
+{
+    return {file.filename().string(), {Exposure{file}}};
+}
+
+void assignLights(LayoutContents& contents, const LightFile& lights, const fs::path& file)
+{
+    Capture& capture = contents.capture;
+    if (lights.lights.size() != capture.photographs.size()) {
+        throw Error(file,
+                    fmt::format("has {} lights, {} has {} photographs", lights.lights.size(), contents.listing.string(),
+                                capture.photographs.size()),
+                    "one light for each photograph");
+    }
+    std::vector<size_t> order = lightsByName(lights, capture.photographs, file);
+    if (order.empty()) {
+        order.resize(lights.lights.size());
+        std::iota(order.begin(), order.end(), size_t{0});
+    }
+    capture.lights.clear();
+    std::transform(order.begin(), order.end(), std::back_inserter(capture.lights),
+                   [&](size_t index) { return lights.lights[index]; });
+    capture.lightsSource = file.string();
+    capture.irradianceGiven = lights.irradianceGiven;
+}
+
+std::vector<uint8_t> loadMask(const fs::path& file, int width, int height)
+{
+    // Masks hold shape, not light: no curve. By rows, since a mask is as large as its photographs.
+    ImageRows rows(file, TransferCurve::linear);
+    const ImageHeader& header = rows.header();
+    if (width != 0 && (header.width != width || header.height != height)) {
+        throw Error(file, fmt::format("is {} x {}", header.width, header.height),
+                    fmt::format("{} x {} as the photographs", width, height));
+    }
+    const int channels = rows.channels();
+    std::vector<uint8_t> mask;
+    mask.reserve(static_cast<size_t>(header.width) * header.height);
+    std::vector<float> row(static_cast<size_t>(header.width) * channels);
+    for (int y = 0; y < header.height; ++y) {
+        rows.read(y, y + 1, row);
+        for (auto pixel = row.begin(); pixel != row.end(); pixel += channels) {
+            mask.push_back(*std::max_element(pixel, pixel + channels) > 0.5f ? 1 : 0);
+        }
+    }
+    if (std::find(mask.begin(), mask.end(), uint8_t{1}) == mask.end()) {
+        throw Error(file, "is an empty mask", "the object brighter than one half");
+    }
+    return mask;
+}
+
+Capture loadCapture(const fs::path& folder, const CaptureOptions& options)
+{
+    LayoutContents contents = readLayout(folder, options);
+    applyOptions(contents, options);
+    requireCounts(contents);
+    examineHeaders(contents, options.transfer);
+    Capture& capture = contents.capture;
+    requireSphereMask(capture.mirrorSphere);
+    requireSphereMask(capture.diffuseSphere);
+    capture.mask = contents.masks.empty()
+                       ? std::vector<uint8_t>(static_cast<size_t>(capture.width) * capture.height, uint8_t{1})
+                       : loadMask(contents.masks[0], capture.width, capture.height);
+    capture.maskPixels = std::count(capture.mask.begin(), capture.mask.end(), uint8_t{1});
+    return capture;
+}
+
+} // namespace nacre

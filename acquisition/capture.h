@@ -1,0 +1,80 @@
+#pragma once
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/scene/image.h"
+#include "engine/scene/light.h"
+
+namespace nacre {
+
+// One file of a photograph; the exposures of a bracket differ in time alone.
+struct Exposure {
+    std::filesystem::path file;
+    double seconds = 1; // relative times will do, if they are so for the whole capture
+};
+
+// What the camera saw under one light.
+struct Photograph {
+    std::string name; // the file's name, for the user
+    std::vector<Exposure> exposures;
+};
+
+// In image coordinates: pixels, x right, y down, the centre of the top left pixel at (0.5, 0.5).
+struct Circle {
+    double x = 0;
+    double y = 0;
+    double radius = 0;
+};
+
+// Photographs of a calibration sphere, one per light in the capture's order; its outline as a mask or a circle.
+struct SpherePhotographs {
+    std::filesystem::path source; // what the user named, for messages
+    std::vector<Photograph> photographs;
+    std::filesystem::path maskFile; // empty where the circle is given
+    std::optional<Circle> circle;
+};
+
+enum class CaptureLayout { uw, diligent, rti, json };
+std::string describe(CaptureLayout layout);
+
+// N photographs of one still object from one still camera, on one common radiance scale. Pictures stay in their files.
+struct Capture {
+    std::string name;
+    std::filesystem::path folder;
+    CaptureLayout layout = CaptureLayout::json;
+    int width = 0;
+    int height = 0;
+    std::vector<Photograph> photographs;
+    std::vector<Light> lights;    // one per photograph; empty where they have to be calibrated
+    bool irradianceGiven = false; // false: lights have directions alone, irradiance 1
+    std::string lightsSource;     // file that gave them, for the user
+    std::vector<uint8_t> mask;    // width x height, 1 on the object
+    size_t maskPixels = 0;
+    std::optional<SpherePhotographs> mirrorSphere;
+    std::optional<SpherePhotographs> diffuseSphere;
+    TransferCurve curve = TransferCurve::linear;
+    std::string curveSource;            // e.g. "assumed", "sRGB chunk of 001.png", "--transfer"
+    std::filesystem::path truthNormals; // empty where there is none
+};
+
+// What the command line adds to, or puts in place of, what the folder says. Empty: the folder's own.
+struct CaptureOptions {
+    std::optional<TransferCurve> transfer;
+    std::filesystem::path mask;
+    std::filesystem::path mirrorSphere; // folder of photographs and a mask
+    std::filesystem::path diffuseSphere;
+    std::filesystem::path rig; // lights from another file: .lp, or the JSON that synth and calibrate write
+};
+
+// Finds out the layout (docs/formats.md) and checks all that can be checked without decoding every photograph:
+// files are there and readable, sizes agree, counts agree, the mask is not empty. Throws Error.
+Capture loadCapture(const std::filesystem::path& folder, const CaptureOptions& options = {});
+
+// A mask picture: inside where the brightest channel is above one half. Throws Error where it is empty or its size
+// differs from width x height (0: any).
+std::vector<uint8_t> loadMask(const std::filesystem::path& file, int width, int height);
+
+} // namespace nacre

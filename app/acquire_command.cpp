@@ -1,0 +1,105 @@
+#include <memory>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "app/acquisition_summary.h"
+#include "app/capture_arguments.h"
+#include "app/commands.h"
+#include "app/debug_pictures.h"
+#include "app/progress_line.h"
+#include "engine/scene/error.h"
+#include "engine/scene/whole_file.h"
+
+namespace nacre {
+
+namespace {
+
+struct AcquireArguments {
+    CaptureArguments common;
+    std::filesystem::path output;
+    std::string coordinates = "half-difference";
+    std::vector<int> tableSize;
+    int k = 25;
+};
+
+AcquireOptions optionsOf(const AcquireArguments& arguments)
+{
+    AcquireOptions options = arguments.common.stageOptions();
+    options.regression.k = arguments.k;
+    if (arguments.coordinates != "half-difference" && arguments.coordinates != "natural") {
+        throw Error("", fmt::format("--coordinates {} are not known", arguments.coordinates),
+                    "half-difference or natural", Error::kUsage);
+    }
+    options.bake.coordinates = arguments.coordinates == "natural" ? kNatural : kHalfDifference;
+    if (!arguments.tableSize.empty()) {
+        const std::vector<int>& s = arguments.tableSize;
+        constexpr int kLargest = 512;
+        if (s.size() != 3 || *std::min_element(s.begin(), s.end()) < 2 ||
+            *std::max_element(s.begin(), s.end()) > kLargest) {
+            throw Error("", "--table-size is not understood", fmt::format("three numbers X,Y,Z from 2 to {}", kLargest),
+                        Error::kUsage);
+        }
+        options.bake.size = {s[0], s[1], s[2]};
+    }
+    return options;
+}
+
+void checkOutput(const std::filesystem::path& output, bool force)
+{
+    if (output.extension() != ".nacre") {
+        throw Error(output, "is no name for a surface", "-o NAME.nacre", Error::kUsage);
+    }
+    WholeOutput(output, force); // refuses now what it would refuse after the work
+}
+
+void runAcquire(AcquireArguments& arguments)
+{
+    const CaptureArguments& common = arguments.common;
+    const AcquireOptions options = optionsOf(arguments);
+    checkOutput(arguments.output, common.force);
+    const Capture capture = arguments.common.load();
+    if (!common.quiet) {
+        fmt::print("{}", describe(capture));
+    }
+    const Acquisition result = acquire(capture, options, progressLine(common.quiet));
+    endProgressLine(common.quiet);
+    saveSurface(arguments.output, result.surface, common.force);
+    if (!common.quiet) {
+        fmt::print("{}\nnormals      {} by {}, {} pixels without one\n{}{}wrote        {}\n",
+                   describe(capture, result.rig), capture.maskPixels - result.pixelsWithoutNormal,
+                   nameOf(options.normals.method), result.pixelsWithoutNormal, describeBrdf(result),
+                   describe(result.times), arguments.output.string());
+    }
+    if (!common.compareRig.empty() && !common.quiet) {
+        fmt::print("{}", describeDisagreement(capture, result.rig, common.compareRig));
+    }
+    if (!common.json.empty()) {
+        writeTextFile(common.json, summaryOf(capture, result).dump(2) + "\n");
+    }
+    if (!common.debugFolder.empty()) {
+        makeDebugFolder(common.debugFolder);
+        saveNormalPictures(common.debugFolder, result.surface.normals);
+        saveMaterialPictures(common.debugFolder, result.surface.materials.front());
+    }
+}
+
+} // namespace
+
+void addAcquireCommand(CLI::App& app)
+{
+    auto arguments = std::make_shared<AcquireArguments>();
+    CLI::App* command =
+        app.add_subcommand("acquire", "Photographs under a moving light to normals and a measured BRDF");
+    arguments->common.addTo(*command);
+    command->add_option("-o,--output", arguments->output, "The surface to write, NAME.nacre")->required();
+    command->add_option("--k", arguments->k, "Nearest samples that are averaged")->capture_default_str();
+    command->add_option("--coordinates", arguments->coordinates, "Of the table: half-difference or natural")
+        ->capture_default_str();
+    command->add_option("--table-size", arguments->tableSize, "X,Y,Z texels (default: from the captured range)")
+        ->delimiter(',');
+    command->footer("Example:\n  nacre acquire horse --mirror-sphere chrome --diffuse-sphere gray -o horse.nacre");
+    command->callback([arguments] { runAcquire(*arguments); });
+}
+
+} // namespace nacre

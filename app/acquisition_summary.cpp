@@ -1,0 +1,185 @@
+#include "app/acquisition_summary.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <glm/trigonometric.hpp>
+#include <nlohmann/json.hpp>
+
+#include "acquisition/light_files.h"
+#include "engine/scene/error.h"
+#include "engine/scene/measures.h"
+
+namespace nacre {
+using Json = nlohmann::json;
+
+namespace {
+
+double polarDegrees(const glm::vec3& d)
+{
+    return glm::degrees(std::atan2(std::hypot(d.x, d.y), d.z));
+}
+
+double azimuthDegrees(const glm::vec3& d)
+{
+    return glm::degrees(std::atan2(d.y, d.x));
+}
+
+double coveredShare(const BrdfTable& table)
+{
+    const auto covered =
+        std::count_if(table.confidence.begin(), table.confidence.end(), [](float c) { return c >= 1; });
+    return static_cast<double>(covered) / static_cast<double>(table.confidence.size());
+}
+
+double meanOf(const std::vector<float>& values)
+{
+    double sum = 0;
+    for (const float v : values) {
+        sum += v;
+    }
+    return sum / static_cast<double>(values.size());
+}
+
+} // namespace
+
+std::string describe(const Capture& capture)
+{
+    size_t exposures = 0;
+    for (const Photograph& photograph : capture.photographs) {
+        exposures += photograph.exposures.size();
+    }
+    std::string text = fmt::format("capture      {}: {} layout, {} photographs of {}x{}", capture.folder.string(),
+                                   describe(capture.layout), capture.photographs.size(), capture.width, capture.height);
+    if (exposures > capture.photographs.size()) {
+        text += fmt::format(" from {} exposures", exposures);
+    }
+    return text + fmt::format("\nmask         {} pixels ({:.1f} %)\ncurve        {} ({})\n", capture.maskPixels,
+                              100.0 * static_cast<double>(capture.maskPixels) / (1.0 * capture.width * capture.height),
+                              capture.curve == TransferCurve::srgb ? "sRGB" : "linear", capture.curveSource);
+}
+
+std::string describe(const Capture& capture, const Rig& rig)
+{
+    std::string text = fmt::format("directions   {}\nirradiances  {}\ncondition    {:.1f}\n", rig.directionsFrom,
+                                   rig.irradiancesFrom, rig.condition);
+    const bool shading = !rig.shadingDisagreement.empty();
+    text += fmt::format("\n{:>24} {}{}\n", "photograph", kLightColumns, shading ? "  shading off by" : "");
+    for (size_t i = 0; i < rig.lights.size(); ++i) {
+        text += fmt::format("{:>24} {}", capture.photographs[i].name, describe(rig.lights[i]));
+        text += shading ? fmt::format("  {:.2f} degrees\n", rig.shadingDisagreement[i]) : "\n";
+    }
+    if (shading) {
+        text += fmt::format(
+            "\nthe diffuse sphere's own shading puts the lights {:.2f} degrees elsewhere in the mean, {:.2f} at most\n",
+            meanOf(rig.shadingDisagreement),
+            *std::max_element(rig.shadingDisagreement.begin(), rig.shadingDisagreement.end()));
+    }
+    return text;
+}
+
+std::string describeDisagreement(const Capture& capture, const Rig& rig, const std::filesystem::path& otherLights)
+{
+    const LightFile other = loadLightFile(otherLights);
+    if (other.lights.size() != rig.lights.size()) {
+        throw Error(otherLights, fmt::format("has {} lights", other.lights.size()),
+                    fmt::format("one for each of the {} photographs", rig.lights.size()));
+    }
+    std::string text = fmt::format("\ndirections against {}\n", otherLights.string());
+    std::vector<float> degrees;
+    for (size_t i = 0; i < rig.lights.size(); ++i) {
+        degrees.push_back(static_cast<float>(degreesBetween(rig.lights[i].direction, other.lights[i].direction)));
+        text += fmt::format("{:>24} {:7.2f} degrees\n", capture.photographs[i].name, degrees.back());
+    }
+    return text + fmt::format("{:.2f} degrees in the mean, {:.2f} at most\n", meanOf(degrees),
+                              *std::max_element(degrees.begin(), degrees.end()));
+}
+
+std::string describe(const std::vector<StageTime>& times)
+{
+    std::string text = "seconds     ";
+    for (const StageTime& time : times) {
+        text += fmt::format(" {} {:.2f}", time.stage, time.seconds);
+    }
+    return text + "\n";
+}
+
+std::string describeBrdf(const Acquisition& acquisition)
+{
+    const SampleCounts& counts = acquisition.samples;
+    const BrdfTable& table = acquisition.surface.materials.front().table;
+    return fmt::format("observations {} used; left out: {} in shadow or grazing, {} saturated, {} of pixels without a "
+                       "normal, {} to thin\n"
+                       "table        {}, scale {}\n",
+                       counts.used, counts.shadowed, counts.saturated, counts.withoutNormal, counts.thinned,
+                       describe(table),
+                       acquisition.surface.scale == RadianceScale::absolute ? "absolute (1/sr)" : "relative");
+}
+
+std::string describe(const BrdfTable& table)
+{
+    const std::string domain = table.domain.coordinates == kNatural
+                                   ? "natural coordinates"
+                                   : fmt::format("thetaD to {:.1f} degrees", glm::degrees(table.domain.thetaDMax));
+    return fmt::format("{}x{}x{} ({:.1f} MiB), {}, {:.0f} % of it measured", table.size.x, table.size.y, table.size.z,
+                       static_cast<double>(table.values.size()) * 16 / (1 << 20), domain, 100 * coveredShare(table));
+}
+
+std::string describe(const Light& light)
+{
+    return fmt::format("{:7.2f} {:8.2f} {:8.4f} {:8.4f} {:8.4f}", polarDegrees(light.direction),
+                       azimuthDegrees(light.direction), light.irradiance.x, light.irradiance.y, light.irradiance.z);
+}
+
+Json summaryOf(const Capture& capture, const Rig& rig, const std::vector<StageTime>& times)
+{
+    Json json = {{"layout", describe(capture.layout)},
+                 {"photographs", capture.photographs.size()},
+                 {"width", capture.width},
+                 {"height", capture.height},
+                 {"maskPixels", capture.maskPixels},
+                 {"curve", capture.curve == TransferCurve::srgb ? "srgb" : "linear"},
+                 {"directionsFrom", rig.directionsFrom},
+                 {"irradiancesFrom", rig.irradiancesFrom},
+                 {"conditionNumber", rig.condition},
+                 {"lights", Json::array()},
+                 {"seconds", Json::object()}};
+    for (size_t i = 0; i < rig.lights.size(); ++i) {
+        const Light& light = rig.lights[i];
+        Json entry = {{"photograph", capture.photographs[i].name},
+                      {"direction", {light.direction.x, light.direction.y, light.direction.z}},
+                      {"irradiance", {light.irradiance.x, light.irradiance.y, light.irradiance.z}},
+                      {"polarDegrees", polarDegrees(light.direction)},
+                      {"azimuthDegrees", azimuthDegrees(light.direction)}};
+        if (!rig.shadingDisagreement.empty()) {
+            entry["shadingDisagreementDegrees"] = rig.shadingDisagreement[i];
+        }
+        json["lights"].push_back(entry);
+    }
+    for (const StageTime& time : times) {
+        json["seconds"][time.stage] = time.seconds;
+    }
+    return json;
+}
+
+Json summaryOf(const Capture& capture, const Acquisition& acquisition)
+{
+    Json json = summaryOf(capture, acquisition.rig, acquisition.times);
+    const BrdfTable& table = acquisition.surface.materials.front().table;
+    const SampleCounts& counts = acquisition.samples;
+    json["pixelsWithoutNormal"] = acquisition.pixelsWithoutNormal;
+    json["samplesUsed"] = counts.used;
+    json["samplesShadowed"] = counts.shadowed;
+    json["samplesSaturated"] = counts.saturated;
+    json["samplesWithoutNormal"] = counts.withoutNormal;
+    json["samplesThinned"] = counts.thinned;
+    json["tableSize"] = {table.size.x, table.size.y, table.size.z};
+    json["tableCoordinates"] = table.domain.coordinates == kNatural ? "natural" : "half-difference";
+    json["tableThetaDMaxDegrees"] = glm::degrees(table.domain.thetaDMax);
+    json["tableCoveredShare"] = coveredShare(table);
+    json["scale"] = acquisition.surface.scale == RadianceScale::absolute ? "absolute" : "relative";
+    return json;
+}
+
+} // namespace nacre

@@ -1,0 +1,29 @@
+#pragma once
+#include <string>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "acquisition/acquire.h"
+
+namespace nacre {
+
+// What the user is told of a capture and its lights: directions as polar angle and azimuth, irradiances, the
+// disagreement with the diffuse sphere's shading.
+std::string describe(const Capture& capture);
+std::string describe(const Capture& capture, const Rig& rig);
+std::string describe(const std::vector<StageTime>& times);
+
+// Degrees between the rig's directions and those of another file of lights, in the photographs' order.
+std::string describeDisagreement(const Capture& capture, const Rig& rig, const std::filesystem::path& otherLights);
+
+std::string describeBrdf(const Acquisition& acquisition);
+// Size, coordinates and measured share of a table, as the end of a sentence.
+std::string describe(const BrdfTable& table);
+// Polar angle and azimuth in degrees, irradiance: one row under the heading kLightColumns.
+std::string describe(const Light& light);
+inline constexpr const char* kLightColumns = "  polar  azimuth      red    green     blue";
+
+nlohmann::json summaryOf(const Capture& capture, const Rig& rig, const std::vector<StageTime>& times);
+nlohmann::json summaryOf(const Capture& capture, const Acquisition& acquisition);
+
+} // namespace nacre

@@ -1,0 +1,87 @@
+#include "app/capture_arguments.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "engine/scene/error.h"
+
+namespace nacre {
+
+namespace {
+
+// One value for all channels, or three.
+glm::vec3 reflectanceOf(const std::vector<float>& values)
+{
+    const bool known = std::all_of(values.begin(), values.end(), [](float v) { return v > 0 && v <= 1; });
+    if ((values.size() != 1 && values.size() != 3) || !known) {
+        throw Error("", "--sphere-reflectance is not understood", "one number or R,G,B in (0, 1]", Error::kUsage);
+    }
+    return values.size() == 1 ? glm::vec3(values[0]) : glm::vec3(values[0], values[1], values[2]);
+}
+
+} // namespace
+
+void CaptureArguments::addTo(CLI::App& command)
+{
+    command.add_option("CAPTURE", folder, "Folder of photographs")->required();
+    command.add_option("--mirror-sphere", capture.mirrorSphere,
+                       "Folder of a mirror sphere's photographs: light directions");
+    command.add_option("--diffuse-sphere", capture.diffuseSphere,
+                       "Folder of a diffuse sphere's photographs: intensities");
+    command
+        .add_option("--sphere-reflectance", sphereReflectance,
+                    "The diffuse sphere's reflectance (one value or R,G,B in (0,1]): makes the BRDF absolute")
+        ->delimiter(',');
+    command.add_option("--rig", capture.rig, "Lights from a file: .lp, numbers, or Nacre's JSON");
+    command.add_option("--compare-rig", compareRig,
+                       "Print how far the directions are from those of this file, light by light");
+    command.add_option("--mask", capture.mask, "Picture that is white on the object");
+    command.add_option("--transfer", transfer,
+                       "Curve of the photographs: linear or srgb (default: what the files declare)");
+    command.add_option("--normals", normals, "Method: least-squares or threshold")->capture_default_str();
+    command
+        .add_option("--thresholds", thresholds,
+                    "LOW,HIGH radiance over irradiance that `threshold` keeps (default: each pixel's own shares)")
+        ->delimiter(',');
+    command.add_option("--threads", threads, "Threads (default: all)");
+    command.add_option("--json", json, "Write the summary to this file too");
+    command.add_option("--debug-dir", debugFolder, "Write every stage's result as a picture");
+    command.add_flag("--quiet", quiet, "No progress, no summary");
+    command.add_flag("--force", force, "Replace an output that exists");
+}
+
+Capture CaptureArguments::load()
+{
+    if (!transfer.empty() && transfer != "linear" && transfer != "srgb") {
+        throw Error("", fmt::format("--transfer {} is no curve", transfer), "linear or srgb", Error::kUsage);
+    }
+    if (!transfer.empty()) {
+        capture.transfer = transfer == "srgb" ? TransferCurve::srgb : TransferCurve::linear;
+    }
+    return loadCapture(folder, capture);
+}
+
+AcquireOptions CaptureArguments::stageOptions() const
+{
+    AcquireOptions options;
+    options.normals.method = normalMethodFromName(normals);
+    if (!thresholds.empty()) {
+        if (thresholds.size() != 2 || thresholds[0] < 0 || thresholds[1] <= thresholds[0]) {
+            throw Error("", "--thresholds is not understood", "two numbers LOW,HIGH with 0 <= LOW < HIGH",
+                        Error::kUsage);
+        }
+        options.normals.lowThreshold = thresholds[0];
+        options.normals.highThreshold = thresholds[1];
+    }
+    if (!sphereReflectance.empty()) {
+        options.calibration.sphereReflectance = reflectanceOf(sphereReflectance);
+    }
+    if (threads < 0) {
+        throw Error("", fmt::format("--threads {} is not possible", threads), "1 or more, or 0 for all", Error::kUsage);
+    }
+    options.setThreads(threads);
+    return options;
+}
+
+} // namespace nacre

@@ -1,0 +1,15 @@
+#pragma once
+#include <CLI/CLI.hpp>
+
+namespace nacre {
+
+// Each adds one subcommand, whose callback runs it; errors are thrown to main.
+void addInfoCommand(CLI::App& app);
+void addRenderCommand(CLI::App& app);
+void addSynthCommand(CLI::App& app);
+void addAcquireCommand(CLI::App& app);
+void addNormalsCommand(CLI::App& app);
+void addCompareCommand(CLI::App& app);
+void addDemoCommand(CLI::App& app);
+
+} // namespace nacre

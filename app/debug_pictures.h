@@ -1,0 +1,18 @@
+#pragma once
+#include <filesystem>
+
+#include "engine/scene/surface.h"
+
+namespace nacre {
+
+// Made where it is missing; an existing folder is written into.
+void makeDebugFolder(const std::filesystem::path& folder);
+
+// normals.png (n = 2 v - 1), confidence.png.
+void saveNormalPictures(const std::filesystem::path& folder, const NormalMap& normals);
+
+// brdf.png: slices of constant phiD (three rows: 0, the middle, the largest), thetaH across, thetaD down, exposed;
+// brdf_coverage.png: the same slices of the confidence; ball.png: the material on a sphere, lit from the upper left.
+void saveMaterialPictures(const std::filesystem::path& folder, const Material& material);
+
+} // namespace nacre

@@ -1,0 +1,90 @@
+#include <memory>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "acquisition/matlab_normals.h"
+#include "app/acquisition_summary.h"
+#include "app/capture_arguments.h"
+#include "app/commands.h"
+#include "app/debug_pictures.h"
+#include "app/progress_line.h"
+#include "engine/scene/error.h"
+#include "engine/scene/measures.h"
+#include "engine/scene/whole_file.h"
+
+namespace nacre {
+
+namespace {
+
+struct NormalsArguments {
+    CaptureArguments common;
+    std::filesystem::path output;
+    std::filesystem::path truth;
+};
+
+AngularError compareWithTruth(const Capture& capture, const NormalMap& normals, const std::filesystem::path& file)
+{
+    const NormalMap truth = loadTrueNormals(file);
+    if (truth.width != capture.width || truth.height != capture.height) {
+        throw Error(file, fmt::format("is {}x{}", truth.width, truth.height),
+                    fmt::format("true normals of the photographs' size, {}x{}", capture.width, capture.height));
+    }
+    return angularError(normals, truth, capture.mask);
+}
+
+void runNormals(NormalsArguments& arguments)
+{
+    const CaptureArguments& common = arguments.common;
+    const AcquireOptions options = common.stageOptions();
+    WholeOutput(arguments.output, common.force); // refuses now what it would refuse after the work
+    const Capture capture = arguments.common.load();
+    const NormalEstimate result = estimateCaptureNormals(capture, options, progressLine(common.quiet));
+    endProgressLine(common.quiet);
+    saveNormalMap(arguments.output, result.normals);
+    nlohmann::json summary = summaryOf(capture, result.rig, result.times);
+    summary["normals"] = nameOf(options.normals.method);
+    summary["pixelsWithoutNormal"] = result.pixelsWithoutNormal;
+    if (!common.quiet) {
+        fmt::print("{}{}\nnormals      {} by {}, {} pixels without one\n{}", describe(capture),
+                   describe(capture, result.rig), capture.maskPixels - result.pixelsWithoutNormal,
+                   nameOf(options.normals.method), result.pixelsWithoutNormal, describe(result.times));
+    }
+    if (!common.compareRig.empty() && !common.quiet) {
+        fmt::print("{}", describeDisagreement(capture, result.rig, common.compareRig));
+    }
+    const std::filesystem::path truth = arguments.truth.empty() ? capture.truthNormals : arguments.truth;
+    if (!truth.empty()) {
+        const AngularError error = compareWithTruth(capture, result.normals, truth);
+        summary["meanErrorDegrees"] = error.mean;
+        summary["medianErrorDegrees"] = error.median;
+        summary["percentile95ErrorDegrees"] = error.percentile95;
+        if (!common.quiet) {
+            fmt::print("error        mean {:.2f}, median {:.2f}, 95th percentile {:.2f} degrees against {} ({} pixels, "
+                       "{} without a normal)\n",
+                       error.mean, error.median, error.percentile95, truth.string(), error.pixels, error.missing);
+        }
+    }
+    if (!common.json.empty()) {
+        writeTextFile(common.json, summary.dump(2) + "\n");
+    }
+    if (!common.debugFolder.empty()) {
+        makeDebugFolder(common.debugFolder);
+        saveNormalPictures(common.debugFolder, result.normals);
+    }
+}
+
+} // namespace
+
+void addNormalsCommand(CLI::App& app)
+{
+    auto arguments = std::make_shared<NormalsArguments>();
+    CLI::App* command = app.add_subcommand("normals", "The first half of acquire: photographs to a normal map");
+    arguments->common.addTo(*command);
+    command->add_option("-o,--output", arguments->output, "Normal map to write, .exr or .png")->required();
+    command->add_option("--truth", arguments->truth, "True normals to compare with (.mat, .png, .exr)");
+    command->footer("Example:\n  nacre normals ballPNG --normals threshold -o ball.exr");
+    command->callback([arguments] { runNormals(*arguments); });
+}
+
+} // namespace nacre

@@ -1,0 +1,49 @@
+#pragma once
+#include <optional>
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+namespace nacre {
+
+// One smooth swelling (or dent, where height is negative) of a sphere: height (1 - (1 - cos angle) / width)^3 within
+// its reach, 0 beyond; twice differentiable everywhere.
+struct Bump {
+    glm::dvec3 centre; // unit direction from the solid's middle
+    double height;     // at the centre, in units of the picture's half width
+    double width;      // 1 - cos of the angle that it reaches
+};
+
+// The solid |p| <= R(p / |p|), R = radius + bumps, about the origin: normals are exact, for the gradient is analytic.
+class BumpySolid {
+public:
+    BumpySolid(double radius, std::vector<Bump> bumps);
+
+    // Negative inside, 0 on the surface, growing outwards.
+    double outside(const glm::dvec3& p) const;
+    glm::dvec3 gradient(const glm::dvec3& p) const;
+    // Unit, outwards, at a point of the surface.
+    glm::dvec3 normal(const glm::dvec3& p) const;
+    // Of a sphere about the origin that holds the solid.
+    double boundingRadius() const { return boundingRadius_; }
+
+    // z of the surface's point nearest to a camera that looks along -z at (x, y); empty beside the solid.
+    std::optional<double> depthTowardsCamera(double x, double y) const;
+    // Whether the ray from a surface point towards a distant light (unit direction) leaves the solid freely.
+    bool reachesLight(const glm::dvec3& surfacePoint, const glm::dvec3& light) const;
+
+private:
+    std::optional<double> firstHit(const glm::dvec3& origin, const glm::dvec3& direction, double from, double to) const;
+    double radiusTowards(const glm::dvec3& d) const;
+
+    double radius_;
+    std::vector<Bump> bumps_;
+    double boundingRadius_;
+    double slope_; // no step of length s changes outside() by more than slope_ * s
+};
+
+// Both fill most of a picture whose shorter side spans [-1, 1].
+BumpySolid plainSphere();
+BumpySolid bumpySolid();
+
+} // namespace nacre

@@ -1,0 +1,34 @@
+#pragma once
+#include <vector>
+
+#include "assets/bumpy_solid.h"
+#include "assets/orthographic_view.h"
+#include "assets/sensor.h"
+#include "assets/synth_options.h"
+#include "engine/scene/brdf_models.h"
+#include "engine/scene/image.h"
+#include "engine/scene/light.h"
+
+namespace nacre {
+
+// What a synthetic capture photographs: the truth behind every file of it.
+struct SynthScene {
+    SynthOptions options;
+    BumpySolid solid;
+    OrthographicView view;
+    std::vector<Light> lights;
+    BrdfModel model;
+    // Gain and noise serve the whole capture, spheres included; each photograph's values are gain * radiance.
+    Sensor sensor;
+};
+
+// Throws Error (usage) where an option makes no capture.
+SynthScene makeSynthScene(const SynthOptions& options);
+
+// 1 where the light reaches the pixel's surface point: neither attached nor cast shadow (the latter where asked for).
+std::vector<uint8_t> litPixels(const SynthScene& scene, const Light& light, int threads);
+
+// Radiance f E n.l of the object's pixels, 3 channels; 0 in shadow and beside the object.
+Image objectRadiance(const SynthScene& scene, const Light& light, int threads);
+
+} // namespace nacre

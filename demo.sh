@@ -1,0 +1,8 @@
+#!/usr/bin/env bash
+# On a fresh Debian 12: installs what apt.txt lists, builds, and makes the demo's contact sheet.
+set -euo pipefail
+cd "$(dirname "$0")"
+. scripts/install_packages.sh
+cmake --preset release >/dev/null
+cmake --build --preset release --target nacre
+build/release/app/nacre demo --force "$@"

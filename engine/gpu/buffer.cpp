@@ -1,0 +1,57 @@
+#include "engine/gpu/buffer.h"
+
+#include "engine/gpu/check.h"
+
+namespace nacre {
+namespace {
+
+VkBuffer createBuffer(VkDevice device, VkDeviceSize bytes, VkBufferUsageFlags usage)
+{
+    const VkBufferCreateInfo info{.sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO, .size = bytes, .usage = usage};
+    VkBuffer buffer = VK_NULL_HANDLE;
+    checkVulkan(vkCreateBuffer(device, &info, nullptr, &buffer), "vkCreateBuffer");
+    return buffer;
+}
+
+VkDeviceMemory allocateMappable(const Context& context, VkBuffer buffer)
+{
+    VkMemoryRequirements requirements;
+    vkGetBufferMemoryRequirements(context.device(), buffer, &requirements);
+    // Cached memory reads frames back at the speed of memory instead of the bus's.
+    const uint32_t type = context.memoryType(requirements.memoryTypeBits,
+                                             VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT,
+                                             VK_MEMORY_PROPERTY_HOST_CACHED_BIT);
+    const VkMemoryAllocateInfo info{
+        .sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO, .allocationSize = requirements.size, .memoryTypeIndex = type};
+    VkDeviceMemory memory = VK_NULL_HANDLE;
+    checkVulkan(vkAllocateMemory(context.device(), &info, nullptr, &memory), "vkAllocateMemory");
+    return memory;
+}
+
+} // namespace
+
+Buffer::Buffer(const Context& context, VkDeviceSize bytes, VkBufferUsageFlags usage)
+    : buffer_(context.device(), createBuffer(context.device(), bytes, usage)), bytes_(bytes)
+{
+    memory_ = {context.device(), allocateMappable(context, buffer_.get())};
+    checkVulkan(vkBindBufferMemory(context.device(), buffer_.get(), memory_.get(), 0), "vkBindBufferMemory");
+    checkVulkan(vkMapMemory(context.device(), memory_.get(), 0, VK_WHOLE_SIZE, 0, &mapped_), "vkMapMemory");
+}
+
+void makeVisibleToHost(VkCommandBuffer commands, const Buffer& buffer)
+{
+    const VkBufferMemoryBarrier2 barrier{.sType = VK_STRUCTURE_TYPE_BUFFER_MEMORY_BARRIER_2,
+                                         .srcStageMask = VK_PIPELINE_STAGE_2_COPY_BIT,
+                                         .srcAccessMask = VK_ACCESS_2_TRANSFER_WRITE_BIT,
+                                         .dstStageMask = VK_PIPELINE_STAGE_2_HOST_BIT,
+                                         .dstAccessMask = VK_ACCESS_2_HOST_READ_BIT,
+                                         .srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
+                                         .dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
+                                         .buffer = buffer.get(),
+                                         .size = VK_WHOLE_SIZE};
+    const VkDependencyInfo dependency{
+        .sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO, .bufferMemoryBarrierCount = 1, .pBufferMemoryBarriers = &barrier};
+    vkCmdPipelineBarrier2(commands, &dependency);
+}
+
+} // namespace nacre

@@ -1,0 +1,128 @@
+#include "engine/gpu/context.h"
+
+#include "engine/gpu/check.h"
+#include "engine/scene/error.h"
+
+namespace nacre {
+namespace {
+
+VkPhysicalDevice choosePhysicalDevice(const Instance& instance, const std::string& selector)
+{
+    const std::vector<VkPhysicalDevice> devices = instance.physicalDevices();
+    std::vector<DeviceInfo> infos;
+    for (VkPhysicalDevice device : devices) {
+        infos.push_back(describeDevice(device));
+    }
+    return devices[chooseDevice(infos, selector)];
+}
+
+VkDevice createDevice(VkPhysicalDevice physicalDevice, uint32_t queueFamily)
+{
+    const float priority = 1;
+    const VkDeviceQueueCreateInfo queue{.sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO,
+                                        .queueFamilyIndex = queueFamily,
+                                        .queueCount = 1,
+                                        .pQueuePriorities = &priority};
+    DeviceFeatures features;
+    features.vulkan13.dynamicRendering = VK_TRUE;
+    features.vulkan13.synchronization2 = VK_TRUE;
+    features.vulkan13.maintenance4 = VK_TRUE;
+    features.vulkan12.scalarBlockLayout = VK_TRUE;
+    const char* extensions[] = {VK_KHR_PUSH_DESCRIPTOR_EXTENSION_NAME};
+    const VkDeviceCreateInfo info{.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO,
+                                  .pNext = &features.core,
+                                  .queueCreateInfoCount = 1,
+                                  .pQueueCreateInfos = &queue,
+                                  .enabledExtensionCount = 1,
+                                  .ppEnabledExtensionNames = extensions};
+    VkDevice device = VK_NULL_HANDLE;
+    checkVulkan(vkCreateDevice(physicalDevice, &info, nullptr, &device), "vkCreateDevice");
+    return device;
+}
+
+VkCommandPool createCommandPool(VkDevice device, uint32_t queueFamily)
+{
+    const VkCommandPoolCreateInfo info{.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO,
+                                       .queueFamilyIndex = queueFamily};
+    VkCommandPool pool = VK_NULL_HANDLE;
+    checkVulkan(vkCreateCommandPool(device, &info, nullptr, &pool), "vkCreateCommandPool");
+    return pool;
+}
+
+VkCommandBuffer allocateCommandBuffer(VkDevice device, VkCommandPool pool)
+{
+    const VkCommandBufferAllocateInfo info{.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO,
+                                           .commandPool = pool,
+                                           .level = VK_COMMAND_BUFFER_LEVEL_PRIMARY,
+                                           .commandBufferCount = 1};
+    VkCommandBuffer commands = VK_NULL_HANDLE;
+    checkVulkan(vkAllocateCommandBuffers(device, &info, &commands), "vkAllocateCommandBuffers");
+    return commands;
+}
+
+VkFence createFence(VkDevice device)
+{
+    const VkFenceCreateInfo info{.sType = VK_STRUCTURE_TYPE_FENCE_CREATE_INFO};
+    VkFence fence = VK_NULL_HANDLE;
+    checkVulkan(vkCreateFence(device, &info, nullptr, &fence), "vkCreateFence");
+    return fence;
+}
+
+} // namespace
+
+Context::Context(const std::string& selector)
+    : physicalDevice_(choosePhysicalDevice(instance_, selector)), info_(describeDevice(physicalDevice_))
+{
+    VkPhysicalDeviceMaintenance3Properties allocation{.sType =
+                                                          VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MAINTENANCE_3_PROPERTIES};
+    VkPhysicalDeviceProperties2 properties{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2,
+                                           .pNext = &allocation};
+    vkGetPhysicalDeviceProperties2(physicalDevice_, &properties);
+    limits_ = properties.properties.limits;
+    largestAllocation_ = allocation.maxMemoryAllocationSize;
+    vkGetPhysicalDeviceMemoryProperties(physicalDevice_, &memory_);
+
+    const uint32_t queueFamily = graphicsQueueFamily(physicalDevice_).value();
+    device_.reset(createDevice(physicalDevice_, queueFamily));
+    vkGetDeviceQueue(device(), queueFamily, 0, &queue_);
+    commandPool_ = {device(), createCommandPool(device(), queueFamily)};
+    commands_ = allocateCommandBuffer(device(), commandPool_.get());
+    done_ = {device(), createFence(device())};
+    pushDescriptorSet =
+        reinterpret_cast<PFN_vkCmdPushDescriptorSetKHR>(vkGetDeviceProcAddr(device(), "vkCmdPushDescriptorSetKHR"));
+}
+
+uint32_t Context::memoryType(uint32_t typeBits, VkMemoryPropertyFlags required, VkMemoryPropertyFlags preferred) const
+{
+    for (const VkMemoryPropertyFlags wanted : {required | preferred, required}) {
+        for (uint32_t i = 0; i < memory_.memoryTypeCount; ++i) {
+            const bool allowed = (typeBits & (1u << i)) != 0;
+            if (allowed && (memory_.memoryTypes[i].propertyFlags & wanted) == wanted) {
+                return i;
+            }
+        }
+    }
+    throw Error({}, "the Vulkan device " + info_.name + " has no fitting memory type",
+                "device memory, and memory that the host can map");
+}
+
+void Context::run(const std::function<void(VkCommandBuffer)>& record) const
+{
+    checkVulkan(vkResetCommandPool(device(), commandPool_.get(), 0), "vkResetCommandPool");
+    const VkCommandBufferBeginInfo begin{.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO,
+                                         .flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT};
+    checkVulkan(vkBeginCommandBuffer(commands_, &begin), "vkBeginCommandBuffer");
+    record(commands_);
+    checkVulkan(vkEndCommandBuffer(commands_), "vkEndCommandBuffer");
+
+    const VkCommandBufferSubmitInfo commandsInfo{.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO,
+                                                 .commandBuffer = commands_};
+    const VkSubmitInfo2 submit{
+        .sType = VK_STRUCTURE_TYPE_SUBMIT_INFO_2, .commandBufferInfoCount = 1, .pCommandBufferInfos = &commandsInfo};
+    VkFence fence = done_.get();
+    checkVulkan(vkQueueSubmit2(queue_, 1, &submit, fence), "vkQueueSubmit2");
+    checkVulkan(vkWaitForFences(device(), 1, &fence, VK_TRUE, UINT64_MAX), "vkWaitForFences");
+    checkVulkan(vkResetFences(device(), 1, &fence), "vkResetFences");
+}
+
+} // namespace nacre

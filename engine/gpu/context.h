@@ -1,0 +1,56 @@
+#pragma once
+#include <functional>
+#include <memory>
+#include <string>
+
+#include <vulkan/vulkan.h>
+
+#include "engine/gpu/device_info.h"
+#include "engine/gpu/instance.h"
+#include "engine/gpu/owned.h"
+
+namespace nacre {
+
+// One device with one queue. Everything made from it must be gone before it.
+class Context {
+public:
+    // selector as --device has it: see chooseDevice. Throws Error where there is no Vulkan device.
+    explicit Context(const std::string& selector = {});
+
+    VkDevice device() const { return device_.get(); }
+    const DeviceInfo& info() const { return info_; }
+    const VkPhysicalDeviceLimits& limits() const { return limits_; }
+    // Of one buffer or texture.
+    VkDeviceSize largestAllocation() const { return largestAllocation_; }
+    bool validates() const { return instance_.validates(); }
+    int validationMessages() const { return instance_.validationMessages(); }
+
+    // A memory type among `typeBits` with the `required` properties, with the `preferred` ones too where there is one.
+    uint32_t memoryType(uint32_t typeBits, VkMemoryPropertyFlags required, VkMemoryPropertyFlags preferred = 0) const;
+
+    // Records, submits, and returns when the device is done.
+    void run(const std::function<void(VkCommandBuffer)>& record) const;
+
+    // VK_KHR_push_descriptor is not exported by the loader.
+    PFN_vkCmdPushDescriptorSetKHR pushDescriptorSet = nullptr;
+
+private:
+    struct DestroyDevice {
+        void operator()(VkDevice device) const { vkDestroyDevice(device, nullptr); }
+    };
+    using Device = std::unique_ptr<std::remove_pointer_t<VkDevice>, DestroyDevice>;
+
+    Instance instance_;
+    VkPhysicalDevice physicalDevice_;
+    DeviceInfo info_;
+    VkPhysicalDeviceLimits limits_{};
+    VkDeviceSize largestAllocation_ = 0;
+    VkPhysicalDeviceMemoryProperties memory_{};
+    Device device_;
+    VkQueue queue_ = VK_NULL_HANDLE;
+    Owned<VkCommandPool, vkDestroyCommandPool> commandPool_;
+    VkCommandBuffer commands_ = VK_NULL_HANDLE; // of the pool
+    Owned<VkFence, vkDestroyFence> done_;
+};
+
+} // namespace nacre

@@ -1,0 +1,151 @@
+#include "engine/gpu/texture.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cstring>
+
+#include <fmt/format.h>
+
+#include "engine/gpu/buffer.h"
+#include "engine/gpu/check.h"
+#include "engine/scene/error.h"
+
+namespace nacre {
+namespace {
+
+constexpr VkImageSubresourceRange kWholeImage{
+    .aspectMask = VK_IMAGE_ASPECT_COLOR_BIT, .levelCount = 1, .layerCount = 1};
+
+void requireTableSize(const Context& context, VkExtent3D extent)
+{
+    const uint32_t limit = context.limits().maxImageDimension3D;
+    const VkDeviceSize texelLimit = context.largestAllocation() / sizeof(glm::vec4);
+    if (std::max({extent.width, extent.height, extent.depth}) > limit ||
+        VkDeviceSize{extent.width} * extent.height * extent.depth > texelLimit) {
+        throw Error({},
+                    fmt::format("a table of {} x {} x {} texels is too large for the Vulkan device {}", extent.width,
+                                extent.height, extent.depth, context.info().name),
+                    fmt::format("at most {} each way, {} million in all", limit, texelLimit / 1000000));
+    }
+}
+
+VkImage createImage(VkDevice device, VkImageType type, VkExtent3D extent, VkImageUsageFlags usage)
+{
+    const VkImageCreateInfo info{.sType = VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO,
+                                 .imageType = type,
+                                 .format = Texture::kFormat,
+                                 .extent = extent,
+                                 .mipLevels = 1,
+                                 .arrayLayers = 1,
+                                 .samples = VK_SAMPLE_COUNT_1_BIT,
+                                 .tiling = VK_IMAGE_TILING_OPTIMAL,
+                                 .usage = usage,
+                                 .initialLayout = VK_IMAGE_LAYOUT_UNDEFINED};
+    VkImage image = VK_NULL_HANDLE;
+    checkVulkan(vkCreateImage(device, &info, nullptr, &image), "vkCreateImage");
+    return image;
+}
+
+VkDeviceMemory allocateOnDevice(const Context& context, VkImage image)
+{
+    VkMemoryRequirements requirements;
+    vkGetImageMemoryRequirements(context.device(), image, &requirements);
+    const VkMemoryAllocateInfo info{
+        .sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO,
+        .allocationSize = requirements.size,
+        .memoryTypeIndex = context.memoryType(requirements.memoryTypeBits, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT)};
+    VkDeviceMemory memory = VK_NULL_HANDLE;
+    checkVulkan(vkAllocateMemory(context.device(), &info, nullptr, &memory), "vkAllocateMemory");
+    return memory;
+}
+
+VkImageView createView(VkDevice device, VkImage image, VkImageType type)
+{
+    const VkImageViewCreateInfo info{.sType = VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO,
+                                     .image = image,
+                                     .viewType =
+                                         type == VK_IMAGE_TYPE_3D ? VK_IMAGE_VIEW_TYPE_3D : VK_IMAGE_VIEW_TYPE_2D,
+                                     .format = Texture::kFormat,
+                                     .subresourceRange = kWholeImage};
+    VkImageView view = VK_NULL_HANDLE;
+    checkVulkan(vkCreateImageView(device, &info, nullptr, &view), "vkCreateImageView");
+    return view;
+}
+
+} // namespace
+
+Texture::Texture(const Context& context, VkImageType type, VkExtent3D extent, VkImageUsageFlags usage) : extent_(extent)
+{
+    if (type == VK_IMAGE_TYPE_3D) {
+        requireTableSize(context, extent);
+    } else {
+        requirePictureSize(context, static_cast<int>(extent.width), static_cast<int>(extent.height));
+    }
+    image_ = {context.device(), createImage(context.device(), type, extent, usage)};
+    memory_ = {context.device(), allocateOnDevice(context, image_.get())};
+    checkVulkan(vkBindImageMemory(context.device(), image_.get(), memory_.get(), 0), "vkBindImageMemory");
+    view_ = {context.device(), createView(context.device(), image_.get(), type)};
+}
+
+Texture uploadTexture(const Context& context, VkImageType type, VkExtent3D extent, std::span<const glm::vec4> texels)
+{
+    assert(texels.size() == size_t{extent.width} * extent.height * extent.depth);
+    Texture texture(context, type, extent, VK_IMAGE_USAGE_TRANSFER_DST_BIT | VK_IMAGE_USAGE_SAMPLED_BIT);
+    const Buffer staging(context, texels.size_bytes(), VK_BUFFER_USAGE_TRANSFER_SRC_BIT);
+    std::memcpy(staging.mapped(), texels.data(), texels.size_bytes());
+    context.run([&](VkCommandBuffer commands) {
+        imageBarrier(commands, texture.image(), kUnused, kCopiedTo);
+        const VkBufferImageCopy copy{.imageSubresource = {.aspectMask = VK_IMAGE_ASPECT_COLOR_BIT, .layerCount = 1},
+                                     .imageExtent = extent};
+        vkCmdCopyBufferToImage(commands, staging.get(), texture.image(), kCopiedTo.layout, 1, &copy);
+        imageBarrier(commands, texture.image(), kCopiedTo, kSampled);
+    });
+    return texture;
+}
+
+void requirePictureSize(const Context& context, int width, int height)
+{
+    const auto limit = static_cast<int>(context.limits().maxImageDimension2D);
+    const VkDeviceSize pixelLimit = context.largestAllocation() / sizeof(glm::vec4);
+    const bool fits = width >= 1 && height >= 1 && std::max(width, height) <= limit &&
+                      static_cast<VkDeviceSize>(width) * static_cast<VkDeviceSize>(height) <= pixelLimit;
+    if (!fits) {
+        throw Error({},
+                    fmt::format("the Vulkan device {} cannot draw {} x {} pixels", context.info().name, width, height),
+                    fmt::format("1 to {} each way, {} million in all", limit, pixelLimit / 1000000));
+    }
+}
+
+Sampler makeSampler(const Context& context, VkFilter filter)
+{
+    const VkSamplerCreateInfo info{.sType = VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO,
+                                   .magFilter = filter,
+                                   .minFilter = filter,
+                                   .mipmapMode = VK_SAMPLER_MIPMAP_MODE_NEAREST,
+                                   .addressModeU = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE,
+                                   .addressModeV = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE,
+                                   .addressModeW = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE};
+    VkSampler sampler = VK_NULL_HANDLE;
+    checkVulkan(vkCreateSampler(context.device(), &info, nullptr, &sampler), "vkCreateSampler");
+    return {context.device(), sampler};
+}
+
+void imageBarrier(VkCommandBuffer commands, VkImage image, const ImageUse& before, const ImageUse& after)
+{
+    const VkImageMemoryBarrier2 barrier{.sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2,
+                                        .srcStageMask = before.stages,
+                                        .srcAccessMask = before.access,
+                                        .dstStageMask = after.stages,
+                                        .dstAccessMask = after.access,
+                                        .oldLayout = before.layout,
+                                        .newLayout = after.layout,
+                                        .srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
+                                        .dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
+                                        .image = image,
+                                        .subresourceRange = kWholeImage};
+    const VkDependencyInfo dependency{
+        .sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO, .imageMemoryBarrierCount = 1, .pImageMemoryBarriers = &barrier};
+    vkCmdPipelineBarrier2(commands, &dependency);
+}
+
+} // namespace nacre

@@ -1,0 +1,129 @@
+#include "engine/scene/normal_map.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
+
+#include "engine/scene/error.h"
+#include "engine/scene/image.h"
+#include "shared/ball.h"
+
+namespace nacre {
+
+namespace {
+
+// Normals shorter than this in n = 2 v - 1 are no normals but a flat background.
+constexpr float kShortestNormal = 0.5f;
+
+bool isFloat(const ImageHeader& header)
+{
+    return header.pixelType == "float" || header.pixelType == "half" || header.pixelType == "double";
+}
+
+} // namespace
+
+NormalMap loadNormalMap(const std::filesystem::path& file, NormalY normalY)
+{
+    const ImageHeader header = readImageHeader(file);
+    const Image image = loadImage(file);
+    if (image.channels < 3) {
+        throw Error(file, fmt::format("has {} channel(s)", image.channels), "a normal map with x, y and z");
+    }
+    const bool coded = !isFloat(header);
+    NormalMap map(image.width, image.height);
+    size_t found = 0;
+    for (size_t i = 0; i < map.normals.size(); ++i) {
+        const float* p = &image.values[i * image.channels];
+        const glm::vec3 stored(p[0], p[1], p[2]);
+        if (!std::isfinite(stored.x + stored.y + stored.z)) {
+            throw Error(file,
+                        fmt::format("has a value that is no number at pixel {}, {}", i % image.width, i / image.width),
+                        "finite normals");
+        }
+        const bool black = stored == glm::vec3(0);
+        glm::vec3 n = coded ? 2.0f * stored - 1.0f : stored;
+        if (normalY == NormalY::dx) {
+            n.y = -n.y;
+        }
+        const float confidence = image.channels > 3 && !coded ? p[3] : 1.0f;
+        const float size = glm::length(n);
+        if (black || size < kShortestNormal || confidence <= 0) {
+            continue;
+        }
+        map.normals[i] = n / size;
+        map.confidence[i] = std::min(confidence, 1.0f);
+        ++found;
+    }
+    if (found == 0) {
+        throw Error(file, "holds no normal", "a normal map: float x, y, z or integers n = 2 v - 1, black = no data");
+    }
+    return map;
+}
+
+void saveNormalMap(const std::filesystem::path& file, const NormalMap& map)
+{
+    const bool coded = file.extension() != ".exr";
+    Image image(map.width, map.height, coded ? 3 : 4);
+    for (size_t i = 0; i < map.normals.size(); ++i) {
+        if (map.confidence[i] <= 0) {
+            continue;
+        }
+        for (int c = 0; c < 3; ++c) {
+            image.values[i * image.channels + c] = coded ? 0.5f + 0.5f * map.normals[i][c] : map.normals[i][c];
+        }
+        if (!coded) {
+            image.values[i * 4 + 3] = map.confidence[i];
+        }
+    }
+    saveImage(file, image, coded ? PixelType::uint16 : PixelType::float32);
+}
+
+std::vector<int64_t> fittedPixels(int fromWidth, int fromHeight, int width, int height)
+{
+    std::vector<int64_t> pixels(static_cast<size_t>(width) * height, -1);
+    const float scale = std::min(static_cast<float>(width) / fromWidth, static_cast<float>(height) / fromHeight);
+    for (int y = 0; y < height; ++y) {
+        for (int x = 0; x < width; ++x) {
+            const float sx = (x + 0.5f - 0.5f * width) / scale + 0.5f * fromWidth;
+            const float sy = (y + 0.5f - 0.5f * height) / scale + 0.5f * fromHeight;
+            if (sx >= 0 && sy >= 0 && sx < fromWidth && sy < fromHeight) {
+                pixels[static_cast<size_t>(y) * width + x] =
+                    static_cast<int64_t>(sy) * fromWidth + static_cast<int64_t>(sx);
+            }
+        }
+    }
+    return pixels;
+}
+
+NormalMap fittedNormalMap(const NormalMap& map, int width, int height)
+{
+    NormalMap fitted(width, height);
+    const std::vector<int64_t> from = fittedPixels(map.width, map.height, width, height);
+    for (size_t i = 0; i < from.size(); ++i) {
+        if (from[i] >= 0) {
+            fitted.normals[i] = map.normals[from[i]];
+            fitted.confidence[i] = map.confidence[from[i]];
+        }
+    }
+    return fitted;
+}
+
+NormalMap sphereNormalMap(int size)
+{
+    NormalMap map(size, size);
+    for (int y = 0; y < size; ++y) {
+        for (int x = 0; x < size; ++x) {
+            const glm::vec2 texel((x + 0.5f) / size, (y + 0.5f) / size);
+            const glm::vec2 disc(2 * texel.x - 1, 1 - 2 * texel.y);
+            if (glm::length(disc) < 1) {
+                map.normals[map.index(x, y)] = glm::normalize(normalFromBallTexel(texel, static_cast<float>(size)));
+                map.confidence[map.index(x, y)] = 1;
+            }
+        }
+    }
+    return map;
+}
+
+} // namespace nacre

@@ -1,0 +1,56 @@
+#include "engine/scene/reference.h"
+
+#include <glm/geometric.hpp>
+
+#include "engine/scene/parallel_for.h"
+#include "shared/shading.h"
+
+namespace nacre {
+namespace {
+
+glm::vec3 radianceOfNormal(const BrdfTable& table, const Scene& scene, const glm::vec3& n)
+{
+    glm::vec3 sum(0);
+    for (const Light& light : scene.lights) {
+        const float nDotL = glm::dot(n, light.direction);
+        if (nDotL > 0) {
+            const glm::vec3 f = evaluateTable(table, n, light.direction, scene.view).value;
+            sum += radianceFromBrdf(f, light.irradiance, nDotL);
+        }
+    }
+    return sum;
+}
+
+glm::vec3 radianceOfPixel(const Scene& scene, size_t pixel)
+{
+    const Surface& surface = scene.surface;
+    const glm::vec3& n = surface.normals.normals[pixel];
+    const uint8_t label = surface.labels[pixel];
+    const bool hasNormal = surface.normals.confidence[pixel] > 0;
+    const bool hasMaterial = label < surface.materials.size();
+    if (!hasNormal || !hasMaterial || glm::dot(n, scene.view) <= 0) {
+        return glm::vec3(0);
+    }
+    const glm::vec3 radiance = radianceOfNormal(surface.materials[label].table, scene, n);
+    const float* a = surface.albedo.values.empty() ? nullptr : &surface.albedo.values[3 * pixel];
+    return a == nullptr ? radiance : glm::vec3(a[0], a[1], a[2]) * radiance;
+}
+
+} // namespace
+
+Frame renderReference(const Scene& scene, int threads)
+{
+    const NormalMap& normals = scene.surface.normals;
+    Frame frame(normals.width, normals.height, 3);
+    parallelFor(frame.pixelCount(), 1024, threads, [&](size_t first, size_t last) {
+        for (size_t pixel = first; pixel < last; ++pixel) {
+            const glm::vec3 radiance = radianceOfPixel(scene, pixel);
+            for (int c = 0; c < 3; ++c) {
+                frame.values[3 * pixel + c] = radiance[c];
+            }
+        }
+    });
+    return frame;
+}
+
+} // namespace nacre

@@ -1,0 +1,52 @@
+#pragma once
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "engine/scene/brdf_table.h"
+#include "engine/scene/image.h"
+#include "engine/scene/light.h"
+#include "engine/scene/normal_map.h"
+
+namespace nacre {
+
+struct Material {
+    std::string name;
+    BrdfTable table;
+    Coverage coverage; // empty where the table was not measured
+};
+
+// relative: the BRDF is 1/sr up to one factor per capture. absolute: the diffuse sphere's reflectance was given.
+enum class RadianceScale { relative, absolute };
+
+// One captured light and the photograph that it lit.
+struct CapturedLight {
+    std::string photograph; // name, for the user
+    Light light;
+};
+
+// What an acquisition writes: a folder NAME.nacre.
+struct Surface {
+    static constexpr uint8_t kNoMaterial = 255;
+
+    NormalMap normals;
+    Image albedo;                // RGB factor, mean 1 over each material's pixels; empty = 1 everywhere
+    std::vector<uint8_t> labels; // index into materials per pixel, kNoMaterial outside
+    std::vector<Material> materials;
+    std::vector<CapturedLight> lights;
+    RadianceScale scale = RadianceScale::relative;
+};
+
+// surface.json, normals.exr, labels.png, albedo.exr (where estimated), material_N.exr and material_N_coverage.exr.
+// Written into a temporary folder, then renamed; an existing folder is refused without `replace`.
+void saveSurface(const std::filesystem::path& folder, const Surface& surface, bool replace);
+Surface loadSurface(const std::filesystem::path& folder);
+
+// The surface of `normals` wholly made of one material, albedo 1: material transfer.
+Surface transferredSurface(const NormalMap& normals, const Material& material);
+
+// The same surface in a picture of another size: fittedNormalMap, with albedo factors and labels alike.
+Surface fittedSurface(const Surface& surface, int width, int height);
+
+} // namespace nacre

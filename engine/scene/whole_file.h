@@ -1,0 +1,32 @@
+#pragma once
+#include <filesystem>
+#include <span>
+#include <string>
+
+namespace nacre {
+
+// A place to write that becomes `destination` by commit() alone; without it, nothing stays behind. `destination` may
+// be a file or a folder.
+class WholeOutput {
+public:
+    // Refuses an existing destination without `replace` and a missing parent folder.
+    WholeOutput(std::filesystem::path destination, bool replace);
+    ~WholeOutput();
+    WholeOutput(const WholeOutput&) = delete;
+    WholeOutput& operator=(const WholeOutput&) = delete;
+
+    const std::filesystem::path& temporary() const { return temporary_; }
+    void commit();
+
+private:
+    std::filesystem::path destination_;
+    std::filesystem::path temporary_;
+    bool replace_;
+};
+
+// Whole or not at all, in place of what was there; Error where the disk refuses.
+void writeWholeFile(const std::filesystem::path& file, std::span<const unsigned char> bytes);
+void writeTextFile(const std::filesystem::path& file, const std::string& text);
+std::string readTextFile(const std::filesystem::path& file);
+
+} // namespace nacre

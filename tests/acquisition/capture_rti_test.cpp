@@ -1,0 +1,137 @@
+#include <cmath>
+
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+
+#include "acquisition/capture.h"
+#include "tests/support/expect_error.h"
+#include "tests/support/temp_folder.h"
+#include "tests/support/write_capture.h"
+
+namespace nacre {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr float kUnitTolerance = 1e-6f;
+
+class CaptureRti : public testing::Test {
+protected:
+    CaptureRti() { writeRtiFolder(folder_.path(), 10); }
+    Capture load(const CaptureOptions& options = {}) { return loadCapture(folder_.path(), options); }
+    void expectRefused(const std::vector<std::string>& fragments)
+    {
+        expectError([&] { load(); }, fragments);
+    }
+    TempFolder folder_;
+};
+
+TEST_F(CaptureRti, StaleFoldersAndSpacesInNames)
+{
+    const Capture capture = load();
+    EXPECT_EQ(capture.layout, CaptureLayout::rti);
+    ASSERT_EQ(capture.photographs.size(), 10u);
+    EXPECT_EQ(capture.photographs[9].name, "photo 10.png");
+    EXPECT_EQ(capture.photographs[9].exposures[0].file, folder_ / "photo 10.png");
+    EXPECT_NEAR(glm::length(capture.lights[9].direction), 1, kUnitTolerance);
+    EXPECT_NEAR(capture.lights[9].direction.x, 1 / std::sqrt(1 + 0.25f + 4), kUnitTolerance);
+    EXPECT_FALSE(capture.irradianceGiven);
+    EXPECT_EQ(capture.lightsSource, (folder_ / "lights.lp").string());
+    EXPECT_EQ(capture.maskPixels, size_t{kTestWidth} * kTestHeight);
+}
+
+TEST_F(CaptureRti, LightsFollowNamesAndNotTheOrderOfFiles)
+{
+    writeText(folder_ / "lights.lp", "3\nphoto 10.png 1 0 0\n/old/photo 2.png 0 1 0\nphoto 9.png 0 0 1\n");
+    const Capture capture = load();
+    EXPECT_EQ(capture.photographs[0].name, "photo 10.png");
+    EXPECT_EQ(capture.lights[0].direction, glm::vec3(1, 0, 0));
+    EXPECT_EQ(capture.photographs[1].name, "photo 2.png");
+}
+
+TEST_F(CaptureRti, OtherExtensionsAndCaseAreFoundByStem)
+{
+    for (int i = 1; i <= 10; ++i) {
+        fs::rename(folder_ / ("photo " + std::to_string(i) + ".png"),
+                   folder_ / ("Photo " + std::to_string(i) + ".PNG"));
+    }
+    EXPECT_EQ(load().photographs[3].name, "Photo 4.PNG");
+    fs::remove(folder_ / "Photo 4.PNG");
+    writePicture(folder_ / "PHOTO 4.tif", 4);
+    EXPECT_EQ(load().photographs[3].name, "PHOTO 4.tif");
+}
+
+TEST_F(CaptureRti, PhotographsBelowTheList)
+{
+    fs::create_directories(folder_ / "jpeg-exports");
+    for (int i = 1; i <= 10; ++i) {
+        const std::string name = "photo " + std::to_string(i) + ".png";
+        fs::rename(folder_ / name, folder_ / "jpeg-exports" / name);
+    }
+    EXPECT_EQ(load().photographs[0].exposures[0].file, folder_ / "jpeg-exports" / "photo 1.png");
+    // The same from the folder of the photographs, the list lying above.
+    const Capture capture = loadCapture(folder_ / "jpeg-exports");
+    EXPECT_EQ(capture.layout, CaptureLayout::rti);
+    EXPECT_EQ(capture.lightsSource, (fs::canonical(folder_.path()) / "lights.lp").string());
+}
+
+TEST_F(CaptureRti, PhotographsBesideTheListComeBeforeThumbnails)
+{
+    writePicture(folder_ / "thumbs" / "photo 1.png", testPicture(1, 2, 2));
+    EXPECT_EQ(load().photographs[0].exposures[0].file, folder_ / "photo 1.png");
+}
+
+TEST_F(CaptureRti, AmbiguousNamesAreRefused)
+{
+    fs::remove(folder_ / "photo 1.png");
+    writePicture(folder_ / "a" / "photo 1.png", 1);
+    writePicture(folder_ / "b" / "photo 1.png", 1);
+    expectRefused({"lights.lp", "a/photo 1.png", "b/photo 1.png"});
+}
+
+TEST_F(CaptureRti, AListAboveOfOtherPhotographsDoesNotCount)
+{
+    writeUwFolder(folder_ / "cat", "cat", 3);
+    EXPECT_EQ(loadCapture(folder_ / "cat").layout, CaptureLayout::uw);
+}
+
+TEST_F(CaptureRti, AMaskIsFoundByItsName)
+{
+    writeMask(folder_ / "dome mask.tga");
+    EXPECT_EQ(load().maskPixels, size_t{6} * kTestHeight);
+    writeMask(folder_ / "mask.png", 4);
+    expectRefused({"mask.png", "dome mask.tga", "--mask"});
+    CaptureOptions options;
+    options.mask = folder_ / "mask.png";
+    EXPECT_EQ(load(options).maskPixels, size_t{4} * kTestHeight);
+}
+
+TEST_F(CaptureRti, MissingPhotographIsNamed)
+{
+    fs::remove(folder_ / "photo 3.png");
+    expectRefused({"lights.lp", "photo 3.png", "is not in"});
+}
+
+TEST_F(CaptureRti, APhotographListedTwiceIsRefused)
+{
+    writeText(folder_ / "lights.lp", "3\nphoto 1.png 1 0 0\nphoto 2.png 0 1 0\nx/photo 1.png 0 0 1\n");
+    expectRefused({"lights.lp", "photo 1.png twice"});
+}
+
+TEST_F(CaptureRti, CountsHaveToAgree)
+{
+    writeText(folder_ / "lights.lp", "4\nphoto 1.png 1 0 0\nphoto 2.png 0 1 0\nphoto 3.png 0 0 1\n");
+    expectRefused({"lights.lp", "announces 4", "lists 3"});
+}
+
+TEST_F(CaptureRti, OfTwoListsTheUserChooses)
+{
+    writeText(folder_ / "other.lp", "3\nphoto 1.png 1 0 0\nphoto 2.png 0 1 0\nphoto 3.png 0 0 1\n");
+    expectRefused({"2 .lp files", "lights.lp", "other.lp", "--rig"});
+    CaptureOptions options;
+    options.rig = folder_ / "other.lp";
+    EXPECT_EQ(load(options).photographs.size(), 3u);
+}
+
+} // namespace
+} // namespace nacre

@@ -1,0 +1,153 @@
+#include "acquisition/light_files.h"
+
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+
+#include "tests/support/expect_error.h"
+#include "tests/support/temp_folder.h"
+
+namespace nacre {
+namespace {
+
+// Float rounding of a normalisation.
+constexpr float kUnitTolerance = 1e-6f;
+
+void expectVector(const glm::vec3& actual, const glm::vec3& expected)
+{
+    for (int c = 0; c < 3; ++c) {
+        EXPECT_NEAR(actual[c], expected[c], kUnitTolerance);
+    }
+}
+
+class LightFiles : public testing::Test {
+protected:
+    std::filesystem::path write(const std::string& name, const std::string& text)
+    {
+        writeText(folder_ / name, text);
+        return folder_ / name;
+    }
+    TempFolder folder_;
+};
+
+TEST_F(LightFiles, TableOfThreeNumbersALine)
+{
+    const auto directions = loadDirections(write("l.txt", "0 0 2\r\n\r\n\t3  0 4 \r\n0,-5,0\r\n+1e-3 0 0"));
+    ASSERT_EQ(directions.size(), 4u);
+    expectVector(directions[0], {0, 0, 1});
+    expectVector(directions[1], {0.6f, 0, 0.8f});
+    expectVector(directions[2], {0, -1, 0});
+    expectVector(directions[3], {1, 0, 0});
+}
+
+TEST_F(LightFiles, TableOfThreeLines)
+{
+    const auto directions = loadDirections(write("l.txt", "1 0 0 3\n0 1 0 0\n0 0 1 4\n"));
+    ASSERT_EQ(directions.size(), 4u);
+    expectVector(directions[1], {0, 1, 0});
+    expectVector(directions[3], {0.6f, 0, 0.8f});
+}
+
+TEST_F(LightFiles, ThreeByThreeIsOneLightALine)
+{
+    const auto directions = loadDirections(write("l.txt", "1 2 2\n0 1 0\n0 0 1\n"));
+    expectVector(directions[0], glm::vec3(1, 2, 2) / 3.0f);
+}
+
+TEST_F(LightFiles, AnnouncedCountIsCheckedAndNoLight)
+{
+    EXPECT_EQ(loadDirections(write("l.txt", "4\n1 0 0\n0 1 0\n0 0 1\n1 1 1\n")).size(), 4u);
+    EXPECT_EQ(loadDirections(write("l.txt", "4\n1 0 0 1\n0 1 0 1\n0 0 1 1\n")).size(), 4u);
+    expectError([&] { loadDirections(write("l.txt", "12\n1 0 0\n0 1 0\n")); }, {"l.txt", "announces 12", "lists 2"});
+}
+
+TEST_F(LightFiles, IrradiancesMayBeGrey)
+{
+    const auto colour = loadIrradiances(write("i.txt", "1 2 3\n4 5 6\n"));
+    EXPECT_EQ(colour, (std::vector<glm::vec3>{{1, 2, 3}, {4, 5, 6}}));
+    const std::vector<glm::vec3> grey{glm::vec3(1), glm::vec3(2), glm::vec3(4)};
+    EXPECT_EQ(loadIrradiances(write("i.txt", "1\n2\n4\n")), grey);
+    EXPECT_EQ(loadIrradiances(write("i.txt", "1 2 4\n")), grey);
+}
+
+TEST_F(LightFiles, TablesRefuseWhatIsNoLight)
+{
+    expectError([&] { loadDirections(write("l.txt", "1 0 0\n0 0 0\n")); }, {"l.txt", "light 2", "(0, 0, 0)"});
+    expectError([&] { loadDirections(write("l.txt", "1 0 nan\n")); }, {"\"nan\" is no number"});
+    expectError([&] { loadDirections(write("l.txt", "1 0 inf\n")); }, {"\"inf\" is no number"});
+    expectError([&] { loadDirections(write("l.txt", "1 0 0.5x\n")); }, {"\"0.5x\" is no number"});
+    expectError([&] { loadDirections(write("l.txt", "1 0 0\n0 1\n")); }, {"row 2 has 2 numbers, row 1 has 3"});
+    expectError([&] { loadDirections(write("l.txt", "1 0\n0 1\n")); }, {"2 rows of 2 numbers"});
+    expectError([&] { loadDirections(write("l.txt", " \r\n")); }, {"is empty"});
+    expectError([&] { loadDirections(folder_ / "missing.txt"); }, {"missing.txt"});
+    expectError([&] { loadIrradiances(write("i.txt", "1 1 1\n1 -1 1\n")); }, {"i.txt", "light 2", "(1, -1, 1)"});
+    expectError([&] { loadIrradiances(write("i.txt", "1\n0\n1\n")); }, {"light 2"});
+}
+
+TEST_F(LightFiles, LpNamesMayHoldSpacesAndNumbers)
+{
+    const LightFile lights =
+        loadLpFile(write("a.lp", "\xef\xbb\xbf"
+                                 "3\r\nD:\\my dome\\shot 1 2.jpg 0 0 2\r\nb.png\t3\t0\t4\r\n\r\nc.png 0 1 0"));
+    EXPECT_EQ(lights.photographs, (std::vector<std::string>{"D:\\my dome\\shot 1 2.jpg", "b.png", "c.png"}));
+    expectVector(lights.lights[0].direction, {0, 0, 1});
+    expectVector(lights.lights[1].direction, {0.6f, 0, 0.8f});
+    EXPECT_EQ(lights.lights[1].irradiance, glm::vec3(1));
+    EXPECT_FALSE(lights.irradianceGiven);
+}
+
+TEST_F(LightFiles, LpRefusesWrongLines)
+{
+    expectError([&] { loadLpFile(write("a.lp", "3\na.png 0 0 1\nb.png 0 0 1\n")); },
+                {"a.lp", "announces 3", "lists 2"});
+    expectError([&] { loadLpFile(write("a.lp", "a.png 0 0 1\n")); }, {"a.lp", "a.png 0 0 1", "number of lights"});
+    expectError([&] { loadLpFile(write("a.lp", "1\na.png 0 1\n")); }, {"\"a.png 0 1\""});
+    expectError([&] { loadLpFile(write("a.lp", "1\n0 0 1\n")); }, {"\"0 0 1\""});
+    expectError([&] { loadLpFile(write("a.lp", "1\na.png 0 0 0\n")); }, {"a.png", "(0, 0, 0)"});
+    expectError([&] { loadLpFile(write("a.lp", "")); }, {"is empty"});
+}
+
+TEST_F(LightFiles, JsonRoundTrip)
+{
+    LightFile lights;
+    lights.lights = {{glm::normalize(glm::vec3(1, 2, 3)), {0.1f, 0.2f, 0.3f}}, {{0, 0, 1}, {1, 2, 3}}};
+    lights.photographs = {"a b.png", "c.png"};
+    lights.irradianceGiven = true;
+    saveLightFile(folder_ / "l.json", lights);
+    const LightFile read = loadLightFile(folder_ / "l.json");
+    EXPECT_EQ(read.photographs, lights.photographs);
+    EXPECT_TRUE(read.irradianceGiven);
+    for (size_t i = 0; i < 2; ++i) {
+        expectVector(read.lights[i].direction, lights.lights[i].direction);
+        EXPECT_EQ(read.lights[i].irradiance, lights.lights[i].irradiance);
+    }
+}
+
+TEST_F(LightFiles, JsonWithoutNamesAndIrradiances)
+{
+    LightFile lights;
+    lights.lights = {{{0, 1, 0}, glm::vec3(7)}};
+    saveLightFile(folder_ / "l.JSON", lights);
+    const LightFile read = loadLightFile(folder_ / "l.JSON");
+    EXPECT_FALSE(read.irradianceGiven);
+    EXPECT_EQ(read.lights[0].irradiance, glm::vec3(1));
+    EXPECT_TRUE(read.photographs.empty());
+}
+
+TEST_F(LightFiles, JsonIsReadStrictly)
+{
+    const auto load = [&](const std::string& lights,
+                          const std::string& head = R"("format":"nacre lights","version":1)") {
+        return [this, text = "{" + head + ",\"lights\":" + lights + "}"] { loadLightFile(write("l.json", text)); };
+    };
+    expectError(load(R"([{"direction":[0,0,1],"colour":1}])"), {"lights[0]", "unknown key \"colour\""});
+    expectError(load(R"([{"direction":[0,0,"1"]}])"), {"lights[0].direction[2] is a string"});
+    expectError(load(R"([{"direction":[0,0,0]}])"), {"lights[0].direction", "(0, 0, 0)"});
+    expectError(load(R"([{"direction":[0,0,1],"irradiance":[1,0,1]}])"), {"lights[0].irradiance"});
+    expectError(load(R"([{"direction":[0,0,1],"irradiance":[1,1,1]},{"direction":[0,0,1]}])"), {"lights[1]"});
+    expectError(load(R"([{"irradiance":[1,1,1]}])"), {"lights[0] lacks \"direction\""});
+    expectError(load("[]", R"("format":"nacre lights","version":2)"), {"version is 2"});
+    expectError(load("[]", R"("format":"nacre capture","version":1)"), {"format is \"nacre capture\""});
+}
+
+} // namespace
+} // namespace nacre

@@ -1,0 +1,82 @@
+// The arrows of docs/architecture.md, by grep: what a part may not know, its files may not include.
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace {
+namespace fs = std::filesystem;
+
+struct Rule {
+    const char* folder;
+    std::vector<const char*> forbidden;
+};
+
+const Rule kRules[] = {
+    {"shaders/shared", {"engine/", "acquisition/", "OpenImageIO", "vulkan", "Eigen", "nanoflann"}},
+    {"engine/scene",
+     {"vulkan", "GLFW", "imgui", "Eigen", "nanoflann", "engine/gpu", "acquisition/", "assets/", "app/"}},
+    {"engine/gpu", {"GLFW", "imgui", "OpenImageIO", "acquisition/", "assets/", "app/", "Eigen", "nanoflann"}},
+    {"acquisition", {"vulkan", "GLFW", "imgui", "OpenImageIO", "engine/gpu", "assets/", "app/"}},
+    {"assets", {"vulkan", "GLFW", "imgui", "OpenImageIO", "engine/gpu", "acquisition/", "app/"}},
+};
+
+bool isSource(const fs::path& file)
+{
+    const std::string extension = file.extension().string();
+    return extension == ".h" || extension == ".cpp";
+}
+
+std::vector<std::string> includesOf(const fs::path& file)
+{
+    std::vector<std::string> includes;
+    std::ifstream stream(file);
+    for (std::string line; std::getline(stream, line);) {
+        if (line.rfind("#include", 0) == 0) {
+            includes.push_back(line);
+        }
+    }
+    return includes;
+}
+
+TEST(Architecture, NoPartIncludesWhatItMayNotKnow)
+{
+    size_t seen = 0;
+    for (const Rule& rule : kRules) {
+        for (const auto& entry : fs::recursive_directory_iterator(fs::path(NACRE_SOURCE_DIR) / rule.folder)) {
+            if (!isSource(entry.path())) {
+                continue;
+            }
+            for (const std::string& include : includesOf(entry.path())) {
+                ++seen;
+                for (const char* word : rule.forbidden) {
+                    EXPECT_EQ(include.find(word), std::string::npos) << entry.path() << " has " << include;
+                }
+            }
+        }
+    }
+    EXPECT_GT(seen, 100u) << "the sources were not found";
+}
+
+TEST(Architecture, OneFileKnowsOpenImageIO)
+{
+    std::vector<fs::path> knowing;
+    for (const char* folder : {"engine", "acquisition", "assets", "app"}) {
+        for (const auto& entry : fs::recursive_directory_iterator(fs::path(NACRE_SOURCE_DIR) / folder)) {
+            if (!isSource(entry.path())) {
+                continue;
+            }
+            for (const std::string& include : includesOf(entry.path())) {
+                if (include.find("OpenImageIO") != std::string::npos &&
+                    (knowing.empty() || knowing.back() != entry.path())) {
+                    knowing.push_back(entry.path());
+                }
+            }
+        }
+    }
+    EXPECT_EQ(knowing.size(), 1u);
+}
+
+} // namespace
