@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <chrono>
 
+#include "acquisition/pixel_sample.h"
+
 namespace nacre {
 
 namespace {
@@ -34,32 +36,73 @@ private:
     std::vector<StageTime>& times_;
 };
 
-void storeNormals(const Observations& block, const std::vector<PixelNormal>& estimated, NormalMap& map, size_t& missing)
+void storeNormals(const Observations& block, const NormalBlock& estimated, bool keepVerdicts, NormalEstimate& result)
 {
+    const size_t n = block.lightCount;
     for (size_t p = 0; p < block.pixels.size(); ++p) {
-        map.normals[block.pixels[p]] = estimated[p].normal;
-        map.confidence[block.pixels[p]] = estimated[p].confidence;
-        missing += estimated[p].confidence <= 0;
+        const PixelNormal& pixel = estimated.pixels[p];
+        result.normals.normals[block.pixels[p]] = pixel.confidence > 0 ? pixel.normal : glm::vec3(0);
+        result.normals.confidence[block.pixels[p]] = pixel.confidence;
+        result.pixelsWithoutNormal += pixel.confidence <= 0;
+        for (size_t i = 0; i < n; ++i) {
+            VerdictCounts& counts = result.verdicts[i];
+            switch (estimated.verdicts[p * n + i]) {
+            case Verdict::used:
+                ++counts.used;
+                break;
+            case Verdict::shadow:
+                ++counts.shadow;
+                break;
+            case Verdict::highlight:
+                ++counts.highlight;
+                break;
+            case Verdict::saturated:
+                ++counts.saturated;
+                break;
+            }
+        }
+    }
+    if (keepVerdicts) {
+        result.pixels.insert(result.pixels.end(), block.pixels.begin(), block.pixels.end());
+        result.everyVerdict.insert(result.everyVerdict.end(), estimated.verdicts.begin(), estimated.verdicts.end());
     }
 }
 
-// Walks the capture block by block: normals of each block, then whatever else wants to see it.
-using BlockVisitor = std::function<void(const Observations&, const std::vector<PixelNormal>&)>;
-
-void walkCapture(const Capture& capture, const Rig& rig, const AcquireOptions& options, const Progress& progress,
-                 StageClock& clock, NormalMap& map, size_t& missing, const BlockVisitor& visit)
+NormalBlock estimateBlock(const NormalEstimator& estimator, const Observations& block, const std::vector<Light>& lights)
 {
+    NormalBlock normals = estimator(intensitiesOf(block, lights));
+    for (size_t i = 0; i < block.saturated.size(); ++i) {
+        if (block.saturated[i]) {
+            normals.verdicts[i] = Verdict::saturated;
+        }
+    }
+    return normals;
+}
+
+// Walks the capture block by block: normals of each block, then whatever else wants to see it.
+using BlockVisitor = std::function<void(const Observations&, const NormalBlock&)>;
+
+void walkCapture(const Capture& capture, const AcquireOptions& options, const Progress& progress, StageClock& clock,
+                 NormalEstimate& result, const BlockVisitor& visit)
+{
+    const std::vector<Light>& lights = result.rig.lights;
+    result.normals = NormalMap(capture.width, capture.height);
+    result.verdicts.resize(lights.size());
     ObservationReader reader(capture, options.normals.threads, options.byteBudget);
     Observations block;
-    size_t seen = 0;
     progress("reading", 0);
-    while (clock.time("reading", [&] { return reader.next(block); })) {
-        seen += block.pixels.size();
+    bool more = clock.time("reading", [&] { return reader.next(block); });
+    progress("choosing", 0);
+    const NormalEstimator estimator = clock.time("choosing", [&] {
+        const Intensities sample = samplePixels(capture, lights, block, options.normals.threads, options.byteBudget);
+        return makeNormalEstimator(sample, lights, options.normals, result.report);
+    });
+    for (size_t seen = 0; more; more = clock.time("reading", [&] { return reader.next(block); })) {
         progress("normals", static_cast<double>(seen) / static_cast<double>(capture.maskPixels));
-        const std::vector<PixelNormal> normals =
-            clock.time("normals", [&] { return estimateNormals(block, rig.lights, options.normals); });
-        storeNormals(block, normals, map, missing);
+        const NormalBlock normals = clock.time("normals", [&] { return estimateBlock(estimator, block, lights); });
+        storeNormals(block, normals, options.keepVerdicts, result);
         visit(block, normals);
+        seen += block.pixels.size();
     }
 }
 
@@ -84,34 +127,32 @@ NormalEstimate estimateCaptureNormals(const Capture& capture, const AcquireOptio
 {
     NormalEstimate result;
     StageClock clock(result.times);
+    progress("lights", 0);
     result.rig = clock.time("lights", [&] { return calibrateLights(capture, options.calibration); });
-    result.normals = NormalMap(capture.width, capture.height);
-    walkCapture(capture, result.rig, options, progress, clock, result.normals, result.pixelsWithoutNormal,
-                [](const Observations&, const std::vector<PixelNormal>&) {});
+    walkCapture(capture, options, progress, clock, result, [](const Observations&, const NormalBlock&) {});
     return result;
 }
 
 Acquisition acquire(const Capture& capture, const AcquireOptions& options, const Progress& progress)
 {
     Acquisition result;
-    StageClock clock(result.times);
+    NormalEstimate& estimate = result.estimate;
+    StageClock clock(estimate.times);
     progress("lights", 0);
-    result.rig = clock.time("lights", [&] { return calibrateLights(capture, options.calibration); });
-    NormalMap normals(capture.width, capture.height);
+    estimate.rig = clock.time("lights", [&] { return calibrateLights(capture, options.calibration); });
+    const std::vector<Light>& lights = estimate.rig.lights;
     BrdfSamples samples;
-    samples.domain = capturedDomain(result.rig.lights, options.bake.coordinates);
-    const double observations = static_cast<double>(capture.maskPixels) * static_cast<double>(result.rig.lights.size());
+    samples.domain = capturedDomain(lights, options.bake.coordinates);
+    const double observations = static_cast<double>(capture.maskPixels) * static_cast<double>(lights.size());
     const double share = static_cast<double>(options.samples.most) / std::max(observations, 1.0);
-    walkCapture(capture, result.rig, options, progress, clock, normals, result.pixelsWithoutNormal,
-                [&](const Observations& block, const std::vector<PixelNormal>& estimated) {
-                    clock.time("samples", [&] {
-                        gatherSamples(block, estimated, result.rig.lights, share, options.samples, samples,
-                                      result.samples);
-                    });
-                });
+    walkCapture(
+        capture, options, progress, clock, estimate, [&](const Observations& block, const NormalBlock& normals) {
+            clock.time("samples",
+                       [&] { gatherSamples(block, normals, lights, share, options.samples, samples, result.samples); });
+        });
     progress("baking", 0);
     BakedBrdf baked = clock.time("baking", [&] { return bakeBrdf(samples, options.regression, options.bake); });
-    result.surface = surfaceOf(capture, result.rig, std::move(normals), std::move(baked));
+    result.surface = surfaceOf(capture, estimate.rig, std::move(estimate.normals), std::move(baked));
     return result;
 }
 

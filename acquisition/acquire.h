@@ -19,6 +19,7 @@ struct AcquireOptions {
     RegressionOptions regression;
     BakeOptions bake;
     size_t byteBudget = ObservationReader::kDefaultByteBudget;
+    bool keepVerdicts = false; // of every observation, for pictures of them
 
     void setThreads(int threads);
 };
@@ -31,20 +32,27 @@ struct StageTime {
     double seconds = 0;
 };
 
+// How the observations under one light were judged.
+struct VerdictCounts {
+    size_t used = 0, shadow = 0, highlight = 0, saturated = 0;
+};
+
 // Normals alone: the first half of the chain.
 struct NormalEstimate {
     Rig rig;
     NormalMap normals;
-    size_t pixelsWithoutNormal = 0; // of the mask
+    NormalReport report;
+    size_t pixelsWithoutNormal = 0;      // of the mask
+    std::vector<VerdictCounts> verdicts; // per light
+    std::vector<uint32_t> pixels;        // of the mask, and
+    std::vector<Verdict> everyVerdict;   // [pixel * lights + light]; both empty unless kept
     std::vector<StageTime> times;
 };
 
 struct Acquisition {
     Surface surface;
-    Rig rig;
+    NormalEstimate estimate; // its normal map has moved into the surface
     SampleCounts samples;
-    size_t pixelsWithoutNormal = 0;
-    std::vector<StageTime> times;
 };
 
 // Photographs -> lights -> normals.

@@ -18,11 +18,11 @@ double scattered(uint32_t pixel)
 
 } // namespace
 
-void gatherSamples(const Observations& block, const std::vector<PixelNormal>& normals, const std::vector<Light>& lights,
+void gatherSamples(const Observations& block, const NormalBlock& normals, const std::vector<Light>& lights,
                    double share, const SampleOptions& options, BrdfSamples& samples, SampleCounts& counts)
 {
     for (size_t p = 0; p < block.pixels.size(); ++p) {
-        const PixelNormal& pixel = normals[p];
+        const PixelNormal& pixel = normals.pixels[p];
         if (pixel.confidence <= 0) {
             counts.withoutNormal += lights.size();
             continue;
@@ -32,14 +32,12 @@ void gatherSamples(const Observations& block, const std::vector<PixelNormal>& no
             continue;
         }
         const auto radiance = block.radianceOf(p);
-        const auto saturated = block.saturatedOf(p);
+        const Verdict* verdicts = &normals.verdicts[p * lights.size()];
         for (size_t i = 0; i < lights.size(); ++i) {
             const float nDotL = glm::dot(pixel.normal, lights[i].direction);
-            const float lambertian = pixel.albedo * nDotL;
-            if (saturated[i]) {
+            if (verdicts[i] == Verdict::saturated) {
                 ++counts.saturated;
-            } else if (nDotL < options.leastCosine ||
-                       greyOf(radiance[i] / lights[i].irradiance) < options.shadowShare * lambertian) {
+            } else if (nDotL < options.leastCosine || verdicts[i] == Verdict::shadow) {
                 ++counts.shadowed;
             } else {
                 samples.unit.push_back(unitFromDirections(samples.domain, pixel.normal, lights[i].direction, kView));

@@ -20,8 +20,6 @@ struct BrdfSamples {
 struct SampleOptions {
     // Rejected below: at grazing light f = I / (E n.l) divides noise by little.
     float leastCosine = 0.1f;
-    // An observation below this share of what Lambert predicts is a cast shadow.
-    float shadowShare = 0.3f;
     // At most this many samples; pixels are thinned evenly by a hash of their position.
     size_t most = 400000;
     int threads = 0;
@@ -36,8 +34,8 @@ struct SampleCounts {
 };
 
 // Adds f_i = I_i / (E_i n.l_i) of a block's pixels, v = (0,0,1). `share` of the pixels is kept, so that the capture's
-// total stays below `most`.
-void gatherSamples(const Observations& block, const std::vector<PixelNormal>& normals, const std::vector<Light>& lights,
+// total stays below `most`. Verdicts are obeyed: nothing in shadow and nothing saturated goes in.
+void gatherSamples(const Observations& block, const NormalBlock& normals, const std::vector<Light>& lights,
                    double share, const SampleOptions& options, BrdfSamples& samples, SampleCounts& counts);
 
 } // namespace nacre

@@ -1,6 +1,7 @@
 #include "acquisition/capture.h"
 
 #include <algorithm>
+#include <map>
 #include <numeric>
 #include <set>
 
@@ -16,6 +17,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr size_t kFewestPhotographs = 3; // a normal has two degrees of freedom, the albedo is the third
+constexpr int kMaskRowsAtOnce = 64;      // few enough for memory, enough to make up for what each call costs
 constexpr const char* kLayouts =
     "capture.json; filenames.txt with light_directions.txt (DiLiGenT); one .lp file here or above, beside its "
     "photographs "
@@ -96,26 +98,35 @@ void requireSphereMask(const std::optional<SpherePhotographs>& sphere)
     }
 }
 
+// Names agree without folders, which may be another machine's, extension and case.
+std::string comparedName(std::string name)
+{
+    std::replace(name.begin(), name.end(), '\\', '/');
+    return lowerCase(fs::path(name).stem().string());
+}
+
 // The light of each photograph where the file names photographs as the capture does; empty where it names none of
 // them, as a rig that was calibrated with other photographs, or where names repeat. Throws Error where it names some.
 std::vector<size_t> lightsByName(const LightFile& lights, const std::vector<Photograph>& photographs,
                                  const fs::path& file)
 {
-    const auto stemOf = [](std::string name) {
-        std::replace(name.begin(), name.end(), '\\', '/');
-        return lowerCase(fs::path(name).stem().string());
-    };
+    std::map<std::string, size_t> lightOf;
+    for (size_t i = 0; i < lights.photographs.size(); ++i) {
+        lightOf.emplace(comparedName(lights.photographs[i]), i);
+    }
     std::vector<size_t> order;
     const Photograph* unnamed = nullptr;
     for (const Photograph& photograph : photographs) {
-        const auto named =
-            std::find_if(lights.photographs.begin(), lights.photographs.end(),
-                         [&](const std::string& name) { return stemOf(name) == stemOf(photograph.name); });
-        if (named == lights.photographs.end()) {
+        const auto named = lightOf.find(comparedName(photograph.name));
+        if (named != lightOf.end()) {
+            order.push_back(named->second);
+        } else if (!unnamed) {
             unnamed = &photograph;
-        } else {
-            order.push_back(named - lights.photographs.begin());
         }
+    }
+    const bool repeated = std::set(order.begin(), order.end()).size() != order.size();
+    if (repeated || lightOf.size() != lights.photographs.size()) {
+        return {};
     }
     if (unnamed && !order.empty()) {
         throw Error(
@@ -181,10 +192,12 @@ std::vector<uint8_t> loadMask(const fs::path& file, int width, int height)
     const int channels = rows.channels();
     std::vector<uint8_t> mask;
     mask.reserve(static_cast<size_t>(header.width) * header.height);
-    std::vector<float> row(static_cast<size_t>(header.width) * channels);
-    for (int y = 0; y < header.height; ++y) {
-        rows.read(y, y + 1, row);
-        for (auto pixel = row.begin(); pixel != row.end(); pixel += channels) {
+    std::vector<float> values;
+    for (int y = 0; y < header.height; y += kMaskRowsAtOnce) {
+        const int last = std::min(y + kMaskRowsAtOnce, header.height);
+        values.resize(static_cast<size_t>(last - y) * header.width * channels);
+        rows.read(y, last, values);
+        for (auto pixel = values.begin(); pixel != values.end(); pixel += channels) {
             mask.push_back(*std::max_element(pixel, pixel + channels) > 0.5f ? 1 : 0);
         }
     }

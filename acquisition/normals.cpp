@@ -1,74 +1,45 @@
 #include "acquisition/normals.h"
 
-#include <algorithm>
-#include <cmath>
-
 #include <fmt/format.h>
 
+#include "acquisition/normal_selection.h"
+#include "acquisition/normals_exemplar.h"
 #include "engine/scene/error.h"
-#include "engine/scene/parallel_for.h"
 
 namespace nacre {
 
 namespace {
-
-constexpr size_t kPixelsPerTask = 1024;
 
 struct NamedMethod {
     const char* name;
     NormalMethod method;
 };
 
-constexpr NamedMethod kMethods[] = {{"least-squares", NormalMethod::leastSquares},
-                                    {"threshold", NormalMethod::threshold}};
-
-// I / E as grey, per light: what a light of irradiance 1 would show.
-void normaliseIntensities(std::span<const glm::vec3> radiance, const std::vector<Light>& lights,
-                          std::vector<float>& out)
-{
-    for (size_t i = 0; i < lights.size(); ++i) {
-        out[i] = greyOf(radiance[i] / lights[i].irradiance);
-    }
-}
-
-void keepBetween(std::span<const float> intensities, float low, float high, std::vector<uint8_t>& use)
-{
-    for (size_t i = 0; i < intensities.size(); ++i) {
-        use[i] = intensities[i] > low && intensities[i] < high;
-    }
-}
-
-// The paper's manual thresholds, or shares of the pixel's own sorted observations.
-void keepByThreshold(std::span<const float> intensities, const NormalOptions& options, std::vector<float>& sorted,
-                     std::vector<uint8_t>& use)
-{
-    if (options.lowThreshold >= 0 && options.highThreshold > options.lowThreshold) {
-        keepBetween(intensities, options.lowThreshold, options.highThreshold, use);
-        return;
-    }
-    sorted.assign(intensities.begin(), intensities.end());
-    std::sort(sorted.begin(), sorted.end());
-    const size_t n = sorted.size();
-    const size_t dark = static_cast<size_t>(options.darkestShare * n);
-    const size_t bright = std::min(static_cast<size_t>(options.brightestShare * n), n - dark - 1);
-    const float low = sorted[dark], high = sorted[n - 1 - bright];
-    for (size_t i = 0; i < n; ++i) {
-        use[i] = intensities[i] >= low && intensities[i] <= high && intensities[i] > 0;
-    }
-}
+constexpr NamedMethod kMethods[] = {
+    {"auto", NormalMethod::automatic},      {"least-squares", NormalMethod::leastSquares},
+    {"threshold", NormalMethod::threshold}, {"two-step", NormalMethod::twoStep},
+    {"ransac", NormalMethod::ransac},       {"consensus", NormalMethod::consensus},
+    {"exemplar", NormalMethod::exemplar}};
 
 } // namespace
 
-NormalMethod normalMethodFromName(const std::string& name)
+std::string normalMethodNames()
 {
     std::string names;
+    for (const NamedMethod& method : kMethods) {
+        names += (names.empty() ? "" : ", ") + std::string(method.name);
+    }
+    return names;
+}
+
+NormalMethod normalMethodFromName(const std::string& name)
+{
     for (const NamedMethod& method : kMethods) {
         if (name == method.name) {
             return method.method;
         }
-        names += (names.empty() ? "" : ", ") + std::string(method.name);
     }
-    throw Error("", fmt::format("--normals {} is no method", name), "one of " + names, Error::kUsage);
+    throw Error("", fmt::format("--normals {} is no method", name), "one of " + normalMethodNames(), Error::kUsage);
 }
 
 std::string nameOf(NormalMethod method)
@@ -81,25 +52,28 @@ std::string nameOf(NormalMethod method)
     return {};
 }
 
-std::vector<PixelNormal> estimateNormals(const Observations& block, const std::vector<Light>& lights,
-                                         const NormalOptions& options)
+NormalEstimator makeNormalEstimator(const Intensities& sample, const std::vector<Light>& lights,
+                                    const NormalOptions& options, NormalReport& report)
 {
-    const LambertianSolver solver(lights);
-    std::vector<PixelNormal> normals(block.pixels.size());
-    parallelFor(normals.size(), kPixelsPerTask, options.threads, [&](size_t first, size_t last) {
-        std::vector<float> intensities(lights.size()), sorted;
-        std::vector<uint8_t> use(lights.size(), 1);
-        for (size_t p = first; p < last; ++p) {
-            normaliseIntensities(block.radianceOf(p), lights, intensities);
-            if (options.method == NormalMethod::leastSquares) {
-                normals[p] = solver.solve(intensities);
-            } else {
-                keepByThreshold(intensities, options, sorted, use);
-                normals[p] = solver.solve(intensities, use);
-            }
-        }
-    });
-    return normals;
+    report.method = options.method == NormalMethod::automatic
+                        ? selectNormalMethod(sample, lights, options, report.remarks)
+                        : options.method;
+    switch (report.method) {
+    case NormalMethod::leastSquares:
+        return makeLeastSquaresEstimator(lights, options);
+    case NormalMethod::threshold:
+        return makeThresholdEstimator(lights, options);
+    case NormalMethod::twoStep:
+        return makeTwoStepEstimator(lights, options);
+    case NormalMethod::ransac:
+        return makeRansacEstimator(lights, options);
+    case NormalMethod::exemplar:
+        return makeExemplarEstimator(sample, lights, options, report.remarks);
+    case NormalMethod::automatic:
+    case NormalMethod::consensus:
+        break;
+    }
+    return makeConsensusEstimator(lights, options);
 }
 
 } // namespace nacre

@@ -18,8 +18,8 @@ namespace nacre {
 
 namespace {
 
-// Rows decoded at once: the block of OpenEXR's ZIP compression. Fewer where the budget is small.
-constexpr size_t kRowsAtOnce = 16;
+// Rows decoded at once, since each call costs a buffer inside the decoder. Fewer where the budget is small.
+constexpr size_t kRowsAtOnce = 64;
 constexpr size_t kRowBytesPerPixel = 4 * sizeof(float); // up to four channels
 
 // Rows [first, last).

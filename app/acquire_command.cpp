@@ -8,6 +8,7 @@
 #include "app/commands.h"
 #include "app/debug_pictures.h"
 #include "app/progress_line.h"
+#include "app/verdict_pictures.h"
 #include "engine/scene/error.h"
 #include "engine/scene/whole_file.h"
 
@@ -66,13 +67,12 @@ void runAcquire(AcquireArguments& arguments)
     endProgressLine(common.quiet);
     saveSurface(arguments.output, result.surface, common.force);
     if (!common.quiet) {
-        fmt::print("{}\nnormals      {} by {}, {} pixels without one\n{}{}wrote        {}\n",
-                   describe(capture, result.rig), capture.maskPixels - result.pixelsWithoutNormal,
-                   nameOf(options.normals.method), result.pixelsWithoutNormal, describeBrdf(result),
-                   describe(result.times), arguments.output.string());
+        fmt::print("{}{}{}{}wrote        {}\n", describe(capture, result.estimate.rig),
+                   describeNormals(capture, result.estimate), describeBrdf(result), describe(result.estimate.times),
+                   arguments.output.string());
     }
     if (!common.compareRig.empty() && !common.quiet) {
-        fmt::print("{}", describeDisagreement(capture, result.rig, common.compareRig));
+        fmt::print("{}", describeDisagreement(capture, result.estimate.rig, common.compareRig));
     }
     if (!common.json.empty()) {
         writeTextFile(common.json, summaryOf(capture, result).dump(2) + "\n");
@@ -80,6 +80,7 @@ void runAcquire(AcquireArguments& arguments)
     if (!common.debugFolder.empty()) {
         makeDebugFolder(common.debugFolder);
         saveNormalPictures(common.debugFolder, result.surface.normals);
+        saveVerdictPictures(common.debugFolder, capture, result.estimate);
         saveMaterialPictures(common.debugFolder, result.surface.materials.front());
     }
 }

@@ -105,6 +105,29 @@ std::string describe(const std::vector<StageTime>& times)
     return text + "\n";
 }
 
+std::string describeNormals(const Capture& capture, const NormalEstimate& estimate)
+{
+    std::string text = fmt::format("\nnormals      {} by {}, {} pixels without one\n",
+                                   capture.maskPixels - estimate.pixelsWithoutNormal, nameOf(estimate.report.method),
+                                   estimate.pixelsWithoutNormal);
+    for (const std::string& remark : estimate.report.remarks) {
+        text += fmt::format("             {}\n", remark);
+    }
+    VerdictCounts sum;
+    for (const VerdictCounts& counts : estimate.verdicts) {
+        sum.used += counts.used;
+        sum.shadow += counts.shadow;
+        sum.highlight += counts.highlight;
+        sum.saturated += counts.saturated;
+    }
+    const double percent =
+        100.0 / static_cast<double>(std::max<size_t>(1, capture.maskPixels * estimate.verdicts.size()));
+    return text +
+           fmt::format("verdicts     {:.1f} % explained, {:.1f} % shadow, {:.1f} % highlight, {:.2f} % saturated\n",
+                       percent * static_cast<double>(sum.used), percent * static_cast<double>(sum.shadow),
+                       percent * static_cast<double>(sum.highlight), percent * static_cast<double>(sum.saturated));
+}
+
 std::string describeBrdf(const Acquisition& acquisition)
 {
     const SampleCounts& counts = acquisition.samples;
@@ -132,8 +155,9 @@ std::string describe(const Light& light)
                        azimuthDegrees(light.direction), light.irradiance.x, light.irradiance.y, light.irradiance.z);
 }
 
-Json summaryOf(const Capture& capture, const Rig& rig, const std::vector<StageTime>& times)
+Json summaryOf(const Capture& capture, const NormalEstimate& estimate)
 {
+    const Rig& rig = estimate.rig;
     Json json = {{"layout", describe(capture.layout)},
                  {"photographs", capture.photographs.size()},
                  {"width", capture.width},
@@ -143,6 +167,9 @@ Json summaryOf(const Capture& capture, const Rig& rig, const std::vector<StageTi
                  {"directionsFrom", rig.directionsFrom},
                  {"irradiancesFrom", rig.irradiancesFrom},
                  {"conditionNumber", rig.condition},
+                 {"normals", nameOf(estimate.report.method)},
+                 {"remarks", estimate.report.remarks},
+                 {"pixelsWithoutNormal", estimate.pixelsWithoutNormal},
                  {"lights", Json::array()},
                  {"seconds", Json::object()}};
     for (size_t i = 0; i < rig.lights.size(); ++i) {
@@ -155,9 +182,14 @@ Json summaryOf(const Capture& capture, const Rig& rig, const std::vector<StageTi
         if (!rig.shadingDisagreement.empty()) {
             entry["shadingDisagreementDegrees"] = rig.shadingDisagreement[i];
         }
+        const VerdictCounts& verdicts = estimate.verdicts[i];
+        entry["used"] = verdicts.used;
+        entry["shadow"] = verdicts.shadow;
+        entry["highlight"] = verdicts.highlight;
+        entry["saturated"] = verdicts.saturated;
         json["lights"].push_back(entry);
     }
-    for (const StageTime& time : times) {
+    for (const StageTime& time : estimate.times) {
         json["seconds"][time.stage] = time.seconds;
     }
     return json;
@@ -165,10 +197,9 @@ Json summaryOf(const Capture& capture, const Rig& rig, const std::vector<StageTi
 
 Json summaryOf(const Capture& capture, const Acquisition& acquisition)
 {
-    Json json = summaryOf(capture, acquisition.rig, acquisition.times);
+    Json json = summaryOf(capture, acquisition.estimate);
     const BrdfTable& table = acquisition.surface.materials.front().table;
     const SampleCounts& counts = acquisition.samples;
-    json["pixelsWithoutNormal"] = acquisition.pixelsWithoutNormal;
     json["samplesUsed"] = counts.used;
     json["samplesShadowed"] = counts.shadowed;
     json["samplesSaturated"] = counts.saturated;

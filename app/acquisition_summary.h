@@ -12,6 +12,8 @@ namespace nacre {
 std::string describe(const Capture& capture);
 std::string describe(const Capture& capture, const Rig& rig);
 std::string describe(const std::vector<StageTime>& times);
+// Method, what it remarked, and how the observations were judged.
+std::string describeNormals(const Capture& capture, const NormalEstimate& estimate);
 
 // Degrees between the rig's directions and those of another file of lights, in the photographs' order.
 std::string describeDisagreement(const Capture& capture, const Rig& rig, const std::filesystem::path& otherLights);
@@ -23,7 +25,7 @@ std::string describe(const BrdfTable& table);
 std::string describe(const Light& light);
 inline constexpr const char* kLightColumns = "  polar  azimuth      red    green     blue";
 
-nlohmann::json summaryOf(const Capture& capture, const Rig& rig, const std::vector<StageTime>& times);
+nlohmann::json summaryOf(const Capture& capture, const NormalEstimate& estimate);
 nlohmann::json summaryOf(const Capture& capture, const Acquisition& acquisition);
 
 } // namespace nacre

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "engine/scene/error.h"
+#include "engine/scene/material_specification.h"
 
 namespace nacre {
 
@@ -39,10 +40,18 @@ void CaptureArguments::addTo(CLI::App& command)
     command.add_option("--mask", capture.mask, "Picture that is white on the object");
     command.add_option("--transfer", transfer,
                        "Curve of the photographs: linear or srgb (default: what the files declare)");
-    command.add_option("--normals", normals, "Method: least-squares or threshold")->capture_default_str();
+    command.add_option("--normals", normals, "Method: " + normalMethodNames())->capture_default_str();
     command
         .add_option("--thresholds", thresholds,
                     "LOW,HIGH radiance over irradiance that `threshold` keeps (default: each pixel's own shares)")
+        ->delimiter(',');
+    command.add_option("--triples", triples, "Of lights that two-step, ransac and consensus try, at most")
+        ->capture_default_str();
+    command.add_option("--seed", seed, "Of the choice of triples")->capture_default_str();
+    command.add_option(
+        "--fits", fits,
+        "Folder of published fits that exemplars use beside the built-in ones [environment variable NACRE_FITS_DIR]");
+    command.add_option("--exclude-reflectance", excludedReflectances, "NAME[,NAME] of published fits to leave out")
         ->delimiter(',');
     command.add_option("--threads", threads, "Threads (default: all)");
     command.add_option("--json", json, "Write the summary to this file too");
@@ -66,6 +75,14 @@ AcquireOptions CaptureArguments::stageOptions() const
 {
     AcquireOptions options;
     options.normals.method = normalMethodFromName(normals);
+    options.normals.seed = seed;
+    options.normals.fitsFolder = fitsFolderFrom(fits);
+    options.normals.excludedReflectances = excludedReflectances;
+    options.keepVerdicts = !debugFolder.empty();
+    if (triples < 1 || triples > 100000) {
+        throw Error("", fmt::format("--triples {} is out of range", triples), "1 to 100000", Error::kUsage);
+    }
+    options.normals.triples = triples;
     if (!thresholds.empty()) {
         if (thresholds.size() != 2 || thresholds[0] < 0 || thresholds[1] <= thresholds[0]) {
             throw Error("", "--thresholds is not understood", "two numbers LOW,HIGH with 0 <= LOW < HIGH",

@@ -14,7 +14,11 @@ struct CaptureArguments {
     CaptureOptions capture;
     std::string transfer;
     std::vector<float> sphereReflectance;
-    std::string normals = "least-squares";
+    std::string normals = "auto";
+    size_t triples = 300;
+    uint64_t seed = 1;
+    std::filesystem::path fits;
+    std::vector<std::string> excludedReflectances;
     std::vector<float> thresholds;
     std::filesystem::path compareRig;
     std::filesystem::path json;

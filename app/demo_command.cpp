@@ -20,7 +20,7 @@ namespace nacre {
 
 namespace {
 
-constexpr int kTargetSize = 320;        // pixels of each target's side on the sheet
+constexpr int kTargetSize = 320;       // pixels of each target's side on the sheet
 constexpr size_t kShownPhotograph = 5; // an oblique light, so that shape and shadow show
 
 struct DemoArguments {
@@ -154,7 +154,8 @@ void runDemo(const DemoArguments& arguments)
     saveImage(output.temporary() / "demo.png", sheet, PixelType::uint8);
     output.commit();
     if (!arguments.quiet) {
-        fmt::print("{}{}", describeBrdf(result), describe(result.times));
+        fmt::print("{}{}{}", describeNormals(capture, result.estimate), describeBrdf(result),
+                   describe(result.estimate.times));
         fmt::print("in all       {:.1f} seconds\n",
                    std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
     }

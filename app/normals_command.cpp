@@ -9,6 +9,7 @@
 #include "app/commands.h"
 #include "app/debug_pictures.h"
 #include "app/progress_line.h"
+#include "app/verdict_pictures.h"
 #include "engine/scene/error.h"
 #include "engine/scene/measures.h"
 #include "engine/scene/whole_file.h"
@@ -42,13 +43,10 @@ void runNormals(NormalsArguments& arguments)
     const NormalEstimate result = estimateCaptureNormals(capture, options, progressLine(common.quiet));
     endProgressLine(common.quiet);
     saveNormalMap(arguments.output, result.normals);
-    nlohmann::json summary = summaryOf(capture, result.rig, result.times);
-    summary["normals"] = nameOf(options.normals.method);
-    summary["pixelsWithoutNormal"] = result.pixelsWithoutNormal;
+    nlohmann::json summary = summaryOf(capture, result);
     if (!common.quiet) {
-        fmt::print("{}{}\nnormals      {} by {}, {} pixels without one\n{}", describe(capture),
-                   describe(capture, result.rig), capture.maskPixels - result.pixelsWithoutNormal,
-                   nameOf(options.normals.method), result.pixelsWithoutNormal, describe(result.times));
+        fmt::print("{}{}{}{}", describe(capture), describe(capture, result.rig), describeNormals(capture, result),
+                   describe(result.times));
     }
     if (!common.compareRig.empty() && !common.quiet) {
         fmt::print("{}", describeDisagreement(capture, result.rig, common.compareRig));
@@ -71,6 +69,7 @@ void runNormals(NormalsArguments& arguments)
     if (!common.debugFolder.empty()) {
         makeDebugFolder(common.debugFolder);
         saveNormalPictures(common.debugFolder, result.normals);
+        saveVerdictPictures(common.debugFolder, capture, result);
     }
 }
 

@@ -285,11 +285,15 @@ OIIO::TypeDesc oiioType(PixelType type)
     return OIIO::TypeDesc::FLOAT;
 }
 
-// 8-bit pictures are for display and tagged sRGB; all others hold linear values and say so.
-OIIO::ImageSpec specOf(const Image& image, PixelType type, const std::vector<ImageAttribute>& attributes)
+// 8-bit pictures are for display and tagged sRGB; all others hold linear values and say so. Not in TIFF, whose writer
+// makes of the tag an EXIF directory that its reader refuses.
+OIIO::ImageSpec specOf(const fs::path& file, const Image& image, PixelType type,
+                       const std::vector<ImageAttribute>& attributes)
 {
     OIIO::ImageSpec spec(image.width, image.height, image.channels, oiioType(type));
-    spec.attribute("oiio:ColorSpace", type == PixelType::uint8 ? "sRGB" : "Linear");
+    if (file.extension() != ".tif" && file.extension() != ".tiff") {
+        spec.attribute("oiio:ColorSpace", type == PixelType::uint8 ? "sRGB" : "Linear");
+    }
     spec.attribute("oiio:UnassociatedAlpha", 1);
     for (const ImageAttribute& attribute : attributes) {
         spec.attribute(attribute.name, attribute.value);
@@ -308,7 +312,7 @@ void saveImage(const fs::path& file, const Image& image, PixelType type, const s
     // Encoded in memory, since a full disk is not noticed by every format's writer.
     OIIO::Filesystem::IOVecOutput memory;
     writer->set_ioproxy(&memory);
-    const bool encoded = writer->open(file.string(), specOf(image, type, attributes)) &&
+    const bool encoded = writer->open(file.string(), specOf(file, image, type, attributes)) &&
                          writer->write_image(OIIO::TypeDesc::FLOAT, image.values.data()) && writer->close();
     if (!encoded) {
         throw Error(file, "cannot be encoded: " + firstLine(writer->geterror()),

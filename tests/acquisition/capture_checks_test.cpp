@@ -56,6 +56,18 @@ TEST_F(CaptureChecks, UnreadablePhotograph)
     expectRefused({"cat.2.png", "cannot be read"});
 }
 
+// Loading a capture of many large photographs has to be quick.
+TEST_F(CaptureChecks, HeadersAloneAreRead)
+{
+    for (int i = 0; i < 4; ++i) {
+        const fs::path file = folder_ / ("cat." + std::to_string(i) + ".png");
+        writePicture(file, testPicture(i, 300, 300));
+        fs::resize_file(file, fs::file_size(file) / 2);
+    }
+    writeMask(folder_ / "cat.mask.tga", 1, 300, 300);
+    EXPECT_EQ(load().width, 300);
+}
+
 TEST_F(CaptureChecks, PhotographOfAnotherSize)
 {
     writePicture(folder_ / "cat.2.png", testPicture(2, 9, 6));
@@ -212,6 +224,18 @@ TEST_F(CaptureRig, ThatNamesSomePhotographsIsRefused)
 {
     writeRig({"cat.0.png", "cat.1.png", "cat.2.png", "cat.4.png"});
     expectRefused({"rig.json", "3 of 4 photographs", "cat.3.png"});
+}
+
+TEST_F(CaptureRig, WhoseNamesRepeatCountsInOrder)
+{
+    writeRig({"a/cat.3.png", "b/cat.3.png", "a/cat.1.png", "b/cat.1.png"});
+    EXPECT_EQ(load().lights[3].irradiance, glm::vec3(4));
+    // The same file name in two folders of the capture.
+    writePicture(folder_ / "other" / "cat.0.png", 5);
+    writeText(folder_ / "capture.json", R"({"format": "nacre capture", "version": 1,
+        "photographs": ["cat.0.png", "other/cat.0.png", "cat.1.png", "cat.2.png"]})");
+    writeRig({"cat.2.png", "cat.1.png", "x.png", "cat.0.png"});
+    EXPECT_EQ(load().lights[3].irradiance, glm::vec3(4));
 }
 
 TEST_F(CaptureRig, TakesThePlaceOfTheFoldersLights)

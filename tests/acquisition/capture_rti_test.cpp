@@ -106,6 +106,13 @@ TEST_F(CaptureRti, AMaskIsFoundByItsName)
     EXPECT_EQ(load(options).maskPixels, size_t{4} * kTestHeight);
 }
 
+TEST_F(CaptureRti, AListedPhotographIsNoMask)
+{
+    writePicture(folder_ / "death mask.png", 1);
+    writeText(folder_ / "lights.lp", "3\ndeath mask.png 1 0 0\nphoto 2.png 0 1 0\nphoto 3.png 0 0 1\n");
+    EXPECT_EQ(load().maskPixels, size_t{kTestWidth} * kTestHeight);
+}
+
 TEST_F(CaptureRti, MissingPhotographIsNamed)
 {
     fs::remove(folder_ / "photo 3.png");

@@ -174,11 +174,11 @@ TEST_F(ObservationsTest, OfSeveralErrorsTheFirstPhotographsIsThrown)
 
 TEST_F(ObservationsTest, APhotographThatEndsEarlyIsNamed)
 {
-    add("whole.png", testPicture(0, 300, 300));
-    add("cut.png", testPicture(1, 300, 300));
+    add("whole.tif", testPicture(0, 300, 300));
+    add("cut.tif", testPicture(1, 300, 300));
     useMask(std::vector<uint8_t>(size_t{300} * 300, 1), 300, 300);
-    std::filesystem::resize_file(folder_ / "cut.png", std::filesystem::file_size(folder_ / "cut.png") / 2);
-    expectError([&] { readAll(); }, {"cut.png"});
+    std::filesystem::resize_file(folder_ / "cut.tif", std::filesystem::file_size(folder_ / "cut.tif") / 2);
+    expectError([&] { readAll(); }, {"cut.tif"});
 }
 
 TEST_F(ObservationsTest, APhotographThatChangedItsSizeIsNamed)

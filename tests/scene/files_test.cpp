@@ -43,11 +43,9 @@ TEST(ImageFiles, RoundTripOfEveryPixelType)
         const char* name;
         PixelType type;
         float tolerance; // half a code value; half floats keep 11 bits
-    } cases[] = {{"a.png", PixelType::uint8, 0.5f / 255},
-                 {"b.png", PixelType::uint16, 0.5f / 65535},
-                 {"c.exr", PixelType::half, 1.0f / 2048},
-                 {"d.exr", PixelType::float32, 0},
-                 {"e.tif", PixelType::float32, 0}};
+    } cases[] = {{"a.png", PixelType::uint8, 0.5f / 255}, {"b.png", PixelType::uint16, 0.5f / 65535},
+                 {"c.exr", PixelType::half, 1.0f / 2048}, {"d.exr", PixelType::float32, 0},
+                 {"e.tif", PixelType::float32, 0},        {"f.tif", PixelType::uint8, 0.5f / 255}};
     for (const auto& c : cases) {
         saveImage(folder / c.name, image, c.type);
         const Image back = loadImage(folder / c.name);

@@ -1,0 +1,124 @@
+#include "acquisition/normal_selection.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "acquisition/lights.h"
+#include "acquisition/object_exemplar.h"
+
+namespace nacre {
+
+namespace {
+
+constexpr size_t kMostPixels = 1500;
+constexpr size_t kHoldOutEvery = 6;
+constexpr size_t kFewestLights = 9;
+constexpr double kLeastGain = 0.98;
+// What is left after holding out has to span space well.
+constexpr double kWorstCondition = 30;
+
+// Simplest first.
+constexpr NormalMethod kCandidates[] = {NormalMethod::leastSquares, NormalMethod::threshold, NormalMethod::consensus,
+                                        NormalMethod::exemplar};
+
+struct Split {
+    std::vector<size_t> kept, heldOut; // indices of lights
+    std::vector<Light> keptLights;
+};
+
+Split splitLights(const std::vector<Light>& lights)
+{
+    Split split;
+    for (size_t i = 0; i < lights.size(); ++i) {
+        (i % kHoldOutEvery == kHoldOutEvery / 2 ? split.heldOut : split.kept).push_back(i);
+    }
+    for (const size_t i : split.kept) {
+        split.keptLights.push_back(lights[i]);
+    }
+    return split;
+}
+
+Intensities everyNthPixel(const Intensities& sample)
+{
+    const size_t count = std::min(kMostPixels, sample.pixelCount());
+    Intensities few = makeIntensities(count, sample.lightCount);
+    for (size_t j = 0; j < count; ++j) {
+        std::copy_n(sample.padded((2 * j + 1) * sample.pixelCount() / (2 * count)), sample.stride,
+                    &few.values[j * few.stride]);
+    }
+    return few;
+}
+
+std::vector<float> weightsOf(const std::vector<size_t>& chosen, size_t lights)
+{
+    std::vector<float> weights((lights + 7) / 8 * 8, 0.0f);
+    for (const size_t i : chosen) {
+        weights[i] = 1;
+    }
+    return weights;
+}
+
+// The held-out error of the BRDF that a method's normals give; 1 where they give none.
+double heldOutError(NormalMethod method, const Intensities& sample, const std::vector<Light>& lights,
+                    const Split& split, const NormalOptions& options)
+{
+    NormalOptions chosen = options;
+    chosen.method = method;
+    NormalReport unused;
+    const Intensities kept = selectLights(sample, split.kept);
+    const NormalBlock block = makeNormalEstimator(kept, split.keptLights, chosen, unused)(kept);
+    ExemplarResult result;
+    for (const PixelNormal& pixel : block.pixels) {
+        const bool found = pixel.albedo > 0;
+        result.normals.push_back(found ? pixel.normal : glm::vec3(0, 0, 1));
+        result.scales.push_back(found ? pixel.albedo : 0.0f);
+    }
+    std::vector<Verdict> verdicts(sample.pixelCount() * lights.size(), Verdict::shadow);
+    for (size_t p = 0; p < sample.pixelCount(); ++p) {
+        for (size_t i = 0; i < split.kept.size(); ++i) {
+            verdicts[p * lights.size() + split.kept[i]] = block.verdicts[p * split.kept.size() + i];
+        }
+    }
+    const std::optional<Exemplar> own =
+        makeObjectExemplar(sample, result, verdicts, lights, weightsOf(split.kept, lights.size()), options.threads);
+    if (!own) {
+        return 1;
+    }
+    // Each pixel's albedo under its own BRDF, from the lights that were kept.
+    const std::vector<float> keptWeights = weightsOf(split.kept, lights.size());
+    for (size_t p = 0; p < sample.pixelCount(); ++p) {
+        const MatchTarget target = targetOf(sample, p, keptWeights);
+        result.scales[p] = matchRow(own->fine, own->fine.rowOf(result.normals[p]), target, own->scales).scale;
+    }
+    return predictionCost(*own, sample, result, weightsOf(split.heldOut, lights.size()));
+}
+
+} // namespace
+
+NormalMethod selectNormalMethod(const Intensities& sample, const std::vector<Light>& lights,
+                                const NormalOptions& options, std::vector<std::string>& remarks)
+{
+    const Split split = splitLights(lights);
+    if (lights.size() < kFewestLights || conditionOf(split.keptLights) > kWorstCondition || sample.pixelCount() == 0) {
+        remarks.push_back(fmt::format("auto: consensus, since {} lights are too few to hold any out", lights.size()));
+        return NormalMethod::consensus;
+    }
+    const Intensities few = everyNthPixel(sample);
+    NormalMethod best = kCandidates[0];
+    double bestError = 0;
+    std::string errors;
+    for (const NormalMethod method : kCandidates) {
+        const double error = heldOutError(method, few, lights, split, options);
+        errors += fmt::format("{}{} {:.4f}", errors.empty() ? "" : ", ", nameOf(method), error);
+        if (method == kCandidates[0] || error < kLeastGain * bestError) {
+            best = method;
+            bestError = error;
+        }
+    }
+    remarks.push_back(
+        fmt::format("auto: {}, by the error on {} held-out lights: {}", nameOf(best), split.heldOut.size(), errors));
+    return best;
+}
+
+} // namespace nacre

@@ -1,0 +1,24 @@
+#pragma once
+#include <optional>
+
+#include "acquisition/exemplar_model.h"
+
+namespace nacre {
+
+constexpr int kFineBallSize = 96; // texels across: 1.2 degrees in the middle
+
+// Weights 1 for every light, padded with zeros.
+std::vector<float> allLights(size_t count);
+size_t countOf(const std::vector<float>& weights);
+
+// Verdicts on a block's observations by what the exemplar predicts for its normals and scales.
+std::vector<Verdict> judgeByExemplar(const Exemplar& exemplar, const Intensities& intensities,
+                                     const ExemplarResult& result, int threads);
+
+// The object's own BRDF as an exemplar: baked from the observations that have weight and are not in shadow, with the
+// normals and scales as given. Nothing where no observation is left.
+std::optional<Exemplar> makeObjectExemplar(const Intensities& sample, const ExemplarResult& result,
+                                           const std::vector<Verdict>& verdicts, const std::vector<Light>& lights,
+                                           const std::vector<float>& weights, int threads);
+
+} // namespace nacre
