@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <chrono>
 
+#include "acquisition/albedo_factor.h"
+#include "acquisition/intensity_refinement.h"
 #include "acquisition/pixel_sample.h"
 
 namespace nacre {
@@ -79,13 +81,27 @@ NormalBlock estimateBlock(const NormalEstimator& estimator, const Observations& 
     return normals;
 }
 
+std::vector<std::string> namesOf(const std::vector<Photograph>& photographs)
+{
+    std::vector<std::string> names;
+    for (const Photograph& photograph : photographs) {
+        names.push_back(photograph.name);
+    }
+    return names;
+}
+
+bool areIrradiancesKnown(const Capture& capture)
+{
+    return capture.irradianceGiven || capture.diffuseSphere.has_value();
+}
+
 // Walks the capture block by block: normals of each block, then whatever else wants to see it.
 using BlockVisitor = std::function<void(const Observations&, const NormalBlock&)>;
 
 void walkCapture(const Capture& capture, const AcquireOptions& options, const Progress& progress, StageClock& clock,
                  NormalEstimate& result, const BlockVisitor& visit)
 {
-    const std::vector<Light>& lights = result.rig.lights;
+    std::vector<Light>& lights = result.rig.lights;
     result.normals = NormalMap(capture.width, capture.height);
     result.verdicts.resize(lights.size());
     ObservationReader reader(capture, options.normals.threads, options.byteBudget);
@@ -94,8 +110,12 @@ void walkCapture(const Capture& capture, const AcquireOptions& options, const Pr
     bool more = clock.time("reading", [&] { return reader.next(block); });
     progress("choosing", 0);
     const NormalEstimator estimator = clock.time("choosing", [&] {
-        const Intensities sample = samplePixels(capture, lights, block, options.normals.threads, options.byteBudget);
-        return makeNormalEstimator(sample, lights, options.normals, result.report);
+        const Observations sample = samplePixels(capture, block, options.normals.threads, options.byteBudget);
+        if (options.correctIntensities) {
+            result.report.remarks = correctIntensities(sample, namesOf(capture.photographs),
+                                                       areIrradiancesKnown(capture), options.normals, lights);
+        }
+        return makeNormalEstimator(intensitiesOf(sample, lights), lights, options.normals, result.report);
     });
     for (size_t seen = 0; more; more = clock.time("reading", [&] { return reader.next(block); })) {
         progress("normals", static_cast<double>(seen) / static_cast<double>(capture.maskPixels));
@@ -106,9 +126,11 @@ void walkCapture(const Capture& capture, const AcquireOptions& options, const Pr
     }
 }
 
-Surface surfaceOf(const Capture& capture, const Rig& rig, NormalMap normals, BakedBrdf baked)
+Surface surfaceOf(const Capture& capture, const Rig& rig, NormalMap normals, Image albedo, BakedBrdf baked)
 {
+    normaliseAlbedo(albedo, baked.table);
     Surface surface = transferredSurface(normals, {capture.name, std::move(baked.table), std::move(baked.coverage)});
+    surface.albedo = std::move(albedo);
     surface.scale = rig.absolute ? RadianceScale::absolute : RadianceScale::relative;
     for (size_t i = 0; i < rig.lights.size(); ++i) {
         surface.lights.push_back({capture.photographs[i].name, rig.lights[i]});
@@ -145,14 +167,22 @@ Acquisition acquire(const Capture& capture, const AcquireOptions& options, const
     samples.domain = capturedDomain(lights, options.bake.coordinates);
     const double observations = static_cast<double>(capture.maskPixels) * static_cast<double>(lights.size());
     const double share = static_cast<double>(options.samples.most) / std::max(observations, 1.0);
-    walkCapture(
-        capture, options, progress, clock, estimate, [&](const Observations& block, const NormalBlock& normals) {
-            clock.time("samples",
-                       [&] { gatherSamples(block, normals, lights, share, options.samples, samples, result.samples); });
-        });
+    Image albedo(capture.width, capture.height, 3);
+    const auto addBlock = [&](const Observations& block, const NormalBlock& normals) {
+        const std::vector<glm::vec3> factors = albedoFactors(block, normals, lights);
+        for (size_t p = 0; p < factors.size(); ++p) {
+            const uint32_t pixel = block.pixels[p];
+            albedo.setRgb(static_cast<int>(pixel % capture.width), static_cast<int>(pixel / capture.width), factors[p]);
+        }
+        gatherSamples(block, normals, factors, lights, share, options.samples, samples, result.samples);
+    };
+    walkCapture(capture, options, progress, clock, estimate,
+                [&](const Observations& block, const NormalBlock& normals) {
+                    clock.time("samples", [&] { addBlock(block, normals); });
+                });
     progress("baking", 0);
     BakedBrdf baked = clock.time("baking", [&] { return bakeBrdf(samples, options.regression, options.bake); });
-    result.surface = surfaceOf(capture, estimate.rig, std::move(estimate.normals), std::move(baked));
+    result.surface = surfaceOf(capture, estimate.rig, std::move(estimate.normals), std::move(albedo), std::move(baked));
     return result;
 }
 

@@ -19,6 +19,8 @@ struct AcquireOptions {
     RegressionOptions regression;
     BakeOptions bake;
     size_t byteBudget = ObservationReader::kDefaultByteBudget;
+    // Photographs that disagree with the rest, and irradiances that nobody gave.
+    bool correctIntensities = true;
     bool keepVerdicts = false; // of every observation, for pictures of them
 
     void setThreads(int threads);

@@ -1,5 +1,6 @@
 #include "acquisition/brdf_samples.h"
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include "shared/shading.h"
@@ -18,12 +19,15 @@ double scattered(uint32_t pixel)
 
 } // namespace
 
-void gatherSamples(const Observations& block, const NormalBlock& normals, const std::vector<Light>& lights,
-                   double share, const SampleOptions& options, BrdfSamples& samples, SampleCounts& counts)
+void gatherSamples(const Observations& block, const NormalBlock& normals, std::span<const glm::vec3> albedo,
+                   const std::vector<Light>& lights, double share, const SampleOptions& options, BrdfSamples& samples,
+                   SampleCounts& counts)
 {
     for (size_t p = 0; p < block.pixels.size(); ++p) {
         const PixelNormal& pixel = normals.pixels[p];
-        if (pixel.confidence <= 0) {
+        // A channel that is black everywhere says nothing of the others' material.
+        const bool black = !(glm::min(albedo[p].x, glm::min(albedo[p].y, albedo[p].z)) > 0);
+        if (pixel.confidence <= 0 || black) {
             counts.withoutNormal += lights.size();
             continue;
         }
@@ -41,7 +45,7 @@ void gatherSamples(const Observations& block, const NormalBlock& normals, const 
                 ++counts.shadowed;
             } else {
                 samples.unit.push_back(unitFromDirections(samples.domain, pixel.normal, lights[i].direction, kView));
-                samples.values.push_back(brdfFromRadiance(radiance[i], lights[i].irradiance, nDotL));
+                samples.values.push_back(brdfFromRadiance(radiance[i], albedo[p] * lights[i].irradiance, nDotL));
                 samples.weights.push_back(pixel.confidence * nDotL);
                 ++counts.used;
             }

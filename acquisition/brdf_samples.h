@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "acquisition/normals.h"
@@ -33,9 +34,11 @@ struct SampleCounts {
     size_t thinned = 0;       // left out because `most` was reached
 };
 
-// Adds f_i = I_i / (E_i n.l_i) of a block's pixels, v = (0,0,1). `share` of the pixels is kept, so that the capture's
-// total stays below `most`. Verdicts are obeyed: nothing in shadow and nothing saturated goes in.
-void gatherSamples(const Observations& block, const NormalBlock& normals, const std::vector<Light>& lights,
-                   double share, const SampleOptions& options, BrdfSamples& samples, SampleCounts& counts);
+// Adds f_i = I_i / (a_p E_i n.l_i) of a block's pixels with their albedo factors a_p, v = (0,0,1). `share` of the
+// pixels is kept, so that the capture's total stays below `most`. Verdicts are obeyed: nothing in shadow and nothing
+// saturated goes in.
+void gatherSamples(const Observations& block, const NormalBlock& normals, std::span<const glm::vec3> albedo,
+                   const std::vector<Light>& lights, double share, const SampleOptions& options, BrdfSamples& samples,
+                   SampleCounts& counts);
 
 } // namespace nacre

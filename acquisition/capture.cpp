@@ -8,6 +8,8 @@
 #include <fmt/format.h>
 
 #include "acquisition/capture_layouts.h"
+#include "acquisition/capture_offset.h"
+#include "acquisition/capture_window.h"
 #include "acquisition/picture_files.h"
 #include "engine/scene/error.h"
 
@@ -50,8 +52,8 @@ LayoutContents readLayout(const fs::path& folder, const CaptureOptions& options)
 
 void applyOptions(LayoutContents& contents, const CaptureOptions& options)
 {
-    if (!options.rig.empty()) {
-        assignLights(contents, loadLightFile(options.rig), options.rig);
+    if (options.offset) {
+        contents.offset = options.offset;
     }
     if (!options.mirrorSphere.empty()) {
         contents.capture.mirrorSphere = readSphereFolder(options.mirrorSphere);
@@ -88,6 +90,101 @@ void requireCounts(const LayoutContents& contents)
     }
     requireSphereCount(capture.mirrorSphere, contents);
     requireSphereCount(capture.diffuseSphere, contents);
+}
+
+bool isNamed(const Photograph& photograph, const std::string& name)
+{
+    const std::string own = lowerCase(photograph.name);
+    return lowerCase(name) == own || lowerCase(name) == fs::path(own).stem().string();
+}
+
+void markSkipped(std::vector<Photograph>& photographs, const std::vector<std::string>& names)
+{
+    for (const std::string& name : names) {
+        size_t found = 0;
+        for (Photograph& photograph : photographs) {
+            if (isNamed(photograph, name)) {
+                photograph.skip = true;
+                ++found;
+            }
+        }
+        if (found != 1) {
+            throw Error("", fmt::format("--skip {} names {} photographs", name, found),
+                        fmt::format("one, such as {}", photographs[0].name), Error::kUsage);
+        }
+    }
+}
+
+// Keeps what stands where nothing is skipped; `list` is empty or as long as `photographs`.
+template <class Item> void keepUnskipped(std::vector<Item>& list, const std::vector<Photograph>& photographs)
+{
+    std::vector<Item> kept;
+    for (size_t i = 0; i < list.size(); ++i) {
+        if (!photographs[i].skip) {
+            kept.push_back(std::move(list[i]));
+        }
+    }
+    list = std::move(kept);
+}
+
+void dropSkipped(Capture& capture)
+{
+    const std::vector<Photograph> photographs = capture.photographs;
+    for (const Photograph& photograph : photographs) {
+        if (photograph.skip) {
+            capture.skipped.push_back(photograph.name);
+        }
+    }
+    keepUnskipped(capture.photographs, photographs);
+    keepUnskipped(capture.lights, photographs);
+    for (auto* sphere : {&capture.mirrorSphere, &capture.diffuseSphere}) {
+        if (*sphere) {
+            keepUnskipped((*sphere)->photographs, photographs);
+        }
+    }
+}
+
+// A rig may have the lights of all photographs, or of those that are not skipped.
+void skipAndAssignRig(LayoutContents& contents, const CaptureOptions& options)
+{
+    markSkipped(contents.capture.photographs, options.skip);
+    if (options.rig.empty()) {
+        dropSkipped(contents.capture);
+        return;
+    }
+    const LightFile rig = loadLightFile(options.rig);
+    if (rig.lights.size() == contents.capture.photographs.size()) {
+        assignLights(contents, rig, options.rig);
+        dropSkipped(contents.capture);
+    } else {
+        dropSkipped(contents.capture);
+        assignLights(contents, rig, options.rig);
+    }
+}
+
+void applyOffset(Capture& capture, const OffsetChoice& choice)
+{
+    if (!choice.automatic) {
+        capture.offset = choice.value;
+        capture.offsetSource = choice.value > 0 ? "given" : "";
+        return;
+    }
+    const OffsetEstimate estimate = estimateOffset(capture);
+    capture.offset = estimate.value;
+    capture.offsetSource = estimate.reason;
+}
+
+void requireLabelSize(const Capture& capture)
+{
+    if (capture.labelsFile.empty()) {
+        return;
+    }
+    const ImageHeader header = readImageHeader(capture.labelsFile);
+    const FileWindow& w = capture.window;
+    if (header.width != w.fileWidth || header.height != w.fileHeight) {
+        throw Error(capture.labelsFile, fmt::format("is {} x {}", header.width, header.height),
+                    fmt::format("{} x {} as the photographs", w.fileWidth, w.fileHeight));
+    }
 }
 
 void requireSphereMask(const std::optional<SpherePhotographs>& sphere)
@@ -169,6 +266,7 @@ void assignLights(LayoutContents& contents, const LightFile& lights, const fs::p
                     "one light for each photograph");
     }
     std::vector<size_t> order = lightsByName(lights, capture.photographs, file);
+    capture.lightsOrder = order.empty() ? "matched to the photographs by order" : "matched to the photographs by name";
     if (order.empty()) {
         order.resize(lights.lights.size());
         std::iota(order.begin(), order.end(), size_t{0});
@@ -212,14 +310,22 @@ Capture loadCapture(const fs::path& folder, const CaptureOptions& options)
     LayoutContents contents = readLayout(folder, options);
     applyOptions(contents, options);
     requireCounts(contents);
+    skipAndAssignRig(contents, options);
+    requireCounts(contents);
     examineHeaders(contents, options.transfer);
     Capture& capture = contents.capture;
+    requireLabelSize(capture);
     requireSphereMask(capture.mirrorSphere);
     requireSphereMask(capture.diffuseSphere);
+    const FileWindow& window = capture.window;
     capture.mask = contents.masks.empty()
                        ? std::vector<uint8_t>(static_cast<size_t>(capture.width) * capture.height, uint8_t{1})
-                       : loadMask(contents.masks[0], capture.width, capture.height);
+                       : windowedMask(loadMask(contents.masks[0], window.fileWidth, window.fileHeight), capture,
+                                      contents.masks[0]);
     capture.maskPixels = std::count(capture.mask.begin(), capture.mask.end(), uint8_t{1});
+    if (contents.offset) {
+        applyOffset(capture, *contents.offset);
+    }
     return capture;
 }
 

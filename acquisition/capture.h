@@ -20,6 +20,18 @@ struct Exposure {
 struct Photograph {
     std::string name; // the file's name, for the user
     std::vector<Exposure> exposures;
+    bool skip = false; // to be left out
+};
+
+// The part of the files' pixels that a capture has, in boxes of box x box that are averaged to one pixel.
+struct FileWindow {
+    int x = 0; // of the top left pixel
+    int y = 0;
+    int width = 0; // in pixels of the files; 0: all
+    int height = 0;
+    int box = 1;
+    int fileWidth = 0; // 0: as the capture
+    int fileHeight = 0;
 };
 
 // In image coordinates: pixels, x right, y down, the centre of the top left pixel at (0.5, 0.5).
@@ -45,19 +57,34 @@ struct Capture {
     std::string name;
     std::filesystem::path folder;
     CaptureLayout layout = CaptureLayout::json;
-    int width = 0;
+    int width = 0; // of the window
     int height = 0;
+    FileWindow window;
     std::vector<Photograph> photographs;
-    std::vector<Light> lights;    // one per photograph; empty where they have to be calibrated
-    bool irradianceGiven = false; // false: lights have directions alone, irradiance 1
-    std::string lightsSource;     // file that gave them, for the user
-    std::vector<uint8_t> mask;    // width x height, 1 on the object
+    std::vector<std::string> skipped; // names of photographs that were left out with their lights
+    std::vector<Light> lights;        // one per photograph; empty where they have to be calibrated
+    bool irradianceGiven = false;     // false: lights have directions alone, irradiance 1
+    std::string lightsSource;         // file that gave them, for the user
+    std::string lightsOrder;   // how they were matched to photographs, for the user; empty where they come with them
+    std::vector<uint8_t> mask; // width x height, 1 on the object
     size_t maskPixels = 0;
     std::optional<SpherePhotographs> mirrorSphere;
     std::optional<SpherePhotographs> diffuseSphere;
     TransferCurve curve = TransferCurve::linear;
     std::string curveSource;            // e.g. "assumed", "sRGB chunk of 001.png", "--transfer"
-    std::filesystem::path truthNormals; // empty where there is none
+    float offset = 0;                   // subtracted from every value, spheres' too, before anything else is done to it
+    std::string offsetSource;           // empty where none was asked for
+    std::optional<Photograph> ambient;  // without the lights; subtracted from every photograph of the object
+    std::filesystem::path truthNormals; // empty where there is none; of the files' size, see windowedNormals
+    std::filesystem::path labelsFile;   // of the files' size; empty where there is none
+    std::optional<double> lightDistance; // from the object, in the unit of
+    std::optional<double> objectWidth;
+};
+
+// An offset to subtract, on the scale of decoded values in [0, 1], or to estimate.
+struct OffsetChoice {
+    bool automatic = false;
+    float value = 0;
 };
 
 // What the command line adds to, or puts in place of, what the folder says. Empty: the folder's own.
@@ -66,11 +93,14 @@ struct CaptureOptions {
     std::filesystem::path mask;
     std::filesystem::path mirrorSphere; // folder of photographs and a mask
     std::filesystem::path diffuseSphere;
+    std::vector<std::string> skip; // names of photographs, with or without extension
+    std::optional<OffsetChoice> offset;
     std::filesystem::path rig; // lights from another file: .lp, or the JSON that synth and calibrate write
 };
 
 // Finds out the layout (docs/formats.md) and checks all that can be checked without decoding every photograph:
-// files are there and readable, sizes agree, counts agree, the mask is not empty. Throws Error.
+// files are there and readable, sizes agree, counts agree, the mask is not empty. An offset to be estimated costs
+// reading the photographs once. Throws Error.
 Capture loadCapture(const std::filesystem::path& folder, const CaptureOptions& options = {});
 
 // A mask picture: inside where the brightest channel is above one half. Throws Error where it is empty or its size

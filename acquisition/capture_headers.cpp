@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "acquisition/capture_layouts.h"
+#include "acquisition/capture_window.h"
 #include "engine/scene/error.h"
 
 namespace nacre {
@@ -102,9 +103,13 @@ void examineHeaders(LayoutContents& contents, const std::optional<TransferCurve>
 {
     Capture& capture = contents.capture;
     std::vector<ReadHeader> all = readHeaders(capture.photographs);
+    if (capture.ambient) {
+        for (Exposure& exposure : capture.ambient->exposures) {
+            all.push_back({&exposure, readImageHeader(exposure.file)});
+        }
+    }
     requireOneSize(all);
-    capture.width = all[0].header.width;
-    capture.height = all[0].header.height;
+    fitWindow(capture, all[0].header.width, all[0].header.height, contents.listing);
     for (auto* sphere : {&capture.mirrorSphere, &capture.diffuseSphere}) {
         if (*sphere) {
             const std::vector<ReadHeader> headers = readHeaders((*sphere)->photographs);

@@ -1,4 +1,6 @@
 // Our own layout, docs/formats.md.
+#include <cmath>
+
 #include <fmt/format.h>
 
 #include "acquisition/capture_layouts.h"
@@ -110,6 +112,94 @@ TransferCurve transferOf(const JsonNode& node)
     return name == "srgb" ? TransferCurve::srgb : TransferCurve::linear;
 }
 
+OffsetChoice offsetOf(const JsonNode& node)
+{
+    if (node.isText() && node.text() == "auto") {
+        return {true, 0};
+    }
+    if (node.isText()) {
+        throw node.error(fmt::format("is \"{}\"", node.text()), "a number or \"auto\"");
+    }
+    const double value = node.number();
+    if (!(value >= 0 && value < 1)) {
+        throw node.error(fmt::format("is {}", value), "from 0 to below 1, the photographs' full scale");
+    }
+    return {false, static_cast<float>(value)};
+}
+
+Photograph ambientOf(const JsonNode& node, bool exposuresGiven)
+{
+    const JsonPhotographs read = readPhotographs({node}, false);
+    requireAlike(node, read.exposuresGiven, exposuresGiven, "an exposure time");
+    return read.photographs[0];
+}
+
+// The whole numbers of "crop", in pixels.
+void readCrop(const JsonNode& node, FileWindow& window)
+{
+    const std::vector<double> numbers = node.numbers(4);
+    constexpr double kLargest = 1e6;
+    for (size_t i = 0; i < 4; ++i) {
+        if (numbers[i] != std::floor(numbers[i]) || numbers[i] < (i < 2 ? 0 : 1) || numbers[i] > kLargest) {
+            throw node.error(fmt::format("is [{}]", fmt::join(numbers, ", ")),
+                             "x, y, width, height in whole pixels, a size of at least 1 x 1");
+        }
+    }
+    window.x = static_cast<int>(numbers[0]);
+    window.y = static_cast<int>(numbers[1]);
+    window.width = static_cast<int>(numbers[2]);
+    window.height = static_cast<int>(numbers[3]);
+}
+
+// How many pixels in a row make one.
+int boxOf(const JsonNode& node)
+{
+    const double scale = node.number();
+    for (const int box : {1, 2, 3, 4}) {
+        if (std::abs(scale * box - 1) < 0.01) { // 0.33 is meant for a third
+            return box;
+        }
+    }
+    throw node.error(fmt::format("is {}", scale), "1, 1/2, 1/3 or 1/4: boxes of whole pixels are averaged");
+}
+
+double lengthOf(const JsonNode& node)
+{
+    const double length = node.number();
+    if (!(length > 0)) {
+        throw node.error(fmt::format("is {}", length), "a positive length");
+    }
+    return length;
+}
+
+void readSizes(const JsonNode& root, Capture& capture)
+{
+    if (const auto crop = root.find("crop")) {
+        readCrop(*crop, capture.window);
+    }
+    if (const auto scale = root.find("scale")) {
+        capture.window.box = boxOf(*scale);
+    }
+    if (root.has("lightDistance") != root.has("objectWidth")) {
+        throw root.error(fmt::format("has \"{}\" alone", root.has("objectWidth") ? "objectWidth" : "lightDistance"),
+                         "\"lightDistance\" and \"objectWidth\", in one unit of length");
+    }
+    if (const auto distance = root.find("lightDistance")) {
+        capture.lightDistance = lengthOf(*distance);
+        capture.objectWidth = lengthOf(root.at("objectWidth"));
+    }
+}
+
+void readSpheres(const JsonNode& root, Capture& capture)
+{
+    if (const auto sphere = root.find("mirrorSphere")) {
+        capture.mirrorSphere = sphereOf(*sphere);
+    }
+    if (const auto sphere = root.find("diffuseSphere")) {
+        capture.diffuseSphere = sphereOf(*sphere);
+    }
+}
+
 } // namespace
 
 std::optional<LayoutContents> readJsonLayout(const fs::path& folder)
@@ -120,7 +210,8 @@ std::optional<LayoutContents> readJsonLayout(const fs::path& folder)
     }
     const JsonNode root = JsonNode::loadVersioned(file, "nacre capture", kCaptureVersion);
     root.allowKeys({"format", "version", "name", "transfer", "mask", "truthNormals", "lights", "irradiances",
-                    "photographs", "mirrorSphere", "diffuseSphere"});
+                    "photographs", "mirrorSphere", "diffuseSphere", "ambient", "offset", "crop", "scale", "labels",
+                    "lightDistance", "objectWidth"});
     LayoutContents contents;
     Capture& capture = contents.capture;
     capture.layout = CaptureLayout::json;
@@ -142,12 +233,17 @@ std::optional<LayoutContents> readJsonLayout(const fs::path& folder)
     if (const auto truth = root.find("truthNormals")) {
         capture.truthNormals = truth->existingPath();
     }
-    if (const auto sphere = root.find("mirrorSphere")) {
-        capture.mirrorSphere = sphereOf(*sphere);
+    if (const auto labels = root.find("labels")) {
+        capture.labelsFile = labels->existingPath();
     }
-    if (const auto sphere = root.find("diffuseSphere")) {
-        capture.diffuseSphere = sphereOf(*sphere);
+    if (const auto offset = root.find("offset")) {
+        contents.offset = offsetOf(*offset);
     }
+    if (const auto ambient = root.find("ambient")) {
+        capture.ambient = ambientOf(*ambient, read.exposuresGiven);
+    }
+    readSizes(root, capture);
+    readSpheres(root, capture);
     return contents;
 }
 

@@ -15,6 +15,7 @@ struct LayoutContents {
     std::vector<std::filesystem::path> masks; // candidates; more than one is ambiguous
     std::optional<TransferCurve> transfer;
     bool exposuresGiven = false;
+    std::optional<OffsetChoice> offset;
 };
 
 // Each answers nothing where the folder has another layout, and throws Error where it has this one, but wrongly.

@@ -77,8 +77,6 @@ float firstScale(const PredictedBall& ball, int row, const MatchTarget& target, 
                           : std::sqrt(range.low * range.high);
 }
 
-} // namespace
-
 Match matchRow(const PredictedBall& ball, int row, const MatchTarget& target, const ScaleRange& range)
 {
     const float* column = ball.column(row);
@@ -88,6 +86,13 @@ Match matchRow(const PredictedBall& ball, int row, const MatchTarget& target, co
         return {};
     }
     return {truncatedCost(column, ball.stride, target, scale), scale, row};
+}
+
+} // namespace
+
+float fittedScale(const float* column, size_t stride, const MatchTarget& target, const ScaleRange& range)
+{
+    return std::clamp(refittedScale(column, stride, target, std::sqrt(range.low * range.high)), range.low, range.high);
 }
 
 Match findBestMatch(const PredictedBall& ball, const MatchTarget& target, const glm::vec3& start, float cosRadius,

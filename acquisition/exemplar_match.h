@@ -31,8 +31,8 @@ struct Match {
     int row = -1; // of the ball
 };
 
-// One column with the scale that suits it.
-Match matchRow(const PredictedBall& ball, int row, const MatchTarget& target, const ScaleRange& range);
+// The scale, of a bounded range, that suits a column of predictions.
+float fittedScale(const float* column, size_t stride, const MatchTarget& target, const ScaleRange& range);
 
 // The best column of the ball within the angle of `start`, cosine given.
 Match findBestMatch(const PredictedBall& ball, const MatchTarget& target, const glm::vec3& start, float cosRadius,

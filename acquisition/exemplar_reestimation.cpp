@@ -24,6 +24,18 @@ void splitLights(size_t count, std::vector<float>& kept, std::vector<float>& hel
     }
 }
 
+// False where no observation is left to bake the object's own BRDF from.
+bool addRound(ExemplarModel& model, const Intensities& sample, const ExemplarResult& result,
+              const std::vector<Light>& lights, const std::vector<float>& weights, int threads)
+{
+    const std::vector<Verdict> verdicts = judgeByExemplar(lastExemplar(model), sample, result, threads);
+    const std::optional<BrdfTable> own = makeObjectTable(sample, result, verdicts, lights, weights, threads);
+    if (own) {
+        model.reestimated.push_back(makeObjectExemplar(*own, lights, threads));
+    }
+    return own.has_value();
+}
+
 } // namespace
 
 void reestimate(ExemplarModel& model, const Intensities& sample, const std::vector<glm::vec3>& starts,
@@ -41,13 +53,9 @@ void reestimate(ExemplarModel& model, const Intensities& sample, const std::vect
     const double first = cost;
     int rounds = 0;
     for (; rounds < kMostRounds; ++rounds) {
-        const Exemplar& last = lastExemplar(trial);
-        std::optional<Exemplar> own =
-            makeObjectExemplar(sample, result, judgeByExemplar(last, sample, result, threads), lights, kept, threads);
-        if (!own) {
+        if (!addRound(trial, sample, result, lights, kept, threads)) {
             break;
         }
-        trial.reestimated.push_back(std::move(*own));
         refineBlock(lastExemplar(trial), sample, kept, threads, result);
         const double next = predictionCost(lastExemplar(trial), sample, result, heldOut);
         if (!(next < kLeastGain * cost)) {
@@ -55,9 +63,11 @@ void reestimate(ExemplarModel& model, const Intensities& sample, const std::vect
         }
         cost = next;
     }
-    remarks.push_back(
-        fmt::format("re-estimated {} time(s) with the object's own BRDF: error on {} held-out lights {:.4f} -> {:.4f}",
-                    rounds, countOf(heldOut), first, cost));
+    if (rounds > 0) {
+        remarks.push_back(fmt::format(
+            "re-estimated {} time(s) with the object's own BRDF: error on {} held-out lights {:.4f} -> {:.4f}", rounds,
+            countOf(heldOut), first, cost));
+    }
     // The same number of rounds with every light.
     const std::vector<float> all = allLights(lights.size());
     for (int round = 0; round < rounds; ++round) {
@@ -66,9 +76,7 @@ void reestimate(ExemplarModel& model, const Intensities& sample, const std::vect
         } else {
             refineBlock(lastExemplar(model), sample, all, threads, result);
         }
-        const Exemplar& last = lastExemplar(model);
-        model.reestimated.push_back(
-            *makeObjectExemplar(sample, result, judgeByExemplar(last, sample, result, threads), lights, all, threads));
+        addRound(model, sample, result, lights, all, threads);
     }
 }
 

@@ -44,14 +44,14 @@ MergedPixel single(const glm::vec3& value, const ExposureScale& scale)
 {
     const float brightest = std::max({value.x, value.y, value.z});
     // Half a code, so that rounding in the decoder hides no clipped pixel.
-    return {value / scale.seconds, scale.isInteger() && brightest >= 1 - 0.5f / scale.fullScale};
+    return {(value - scale.offset) / scale.seconds, scale.isInteger() && brightest >= 1 - 0.5f / scale.fullScale};
 }
 
 } // namespace
 
 ExposureScale exposureScaleOf(std::string_view pixelType, double seconds)
 {
-    ExposureScale scale{static_cast<float>(seconds), 0};
+    ExposureScale scale{static_cast<float>(seconds), 0, 0};
     const bool isSigned = pixelType.starts_with("int");
     if (isSigned || pixelType.starts_with("uint")) {
         int bits = 32; // what "int" and "uint" mean
@@ -72,14 +72,14 @@ MergedPixel mergeExposures(std::span<const glm::vec3> values, std::span<const Ex
         float weights = 0;
         for (size_t e = 0; e < values.size(); ++e) {
             const float weight = scales[e].seconds * hatWeight(values[e][c], scales[e]);
-            merged.radiance[c] += weight * (values[e][c] / scales[e].seconds);
+            merged.radiance[c] += weight * ((values[e][c] - scales[e].offset) / scales[e].seconds);
             weights += weight;
         }
         if (weights > 0) {
             merged.radiance[c] /= weights;
         } else {
             const size_t e = shortest(scales);
-            merged.radiance[c] = values[e][c] / scales[e].seconds;
+            merged.radiance[c] = (values[e][c] - scales[e].offset) / scales[e].seconds;
             merged.saturated = true;
         }
     }

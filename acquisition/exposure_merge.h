@@ -10,6 +10,7 @@ namespace nacre {
 struct ExposureScale {
     float seconds = 1;
     float fullScale = 0; // the largest code, e.g. 65535; 0 for floats, which never saturate
+    float offset = 0;    // subtracted from every value; whether one is clipped is asked before
 
     bool isInteger() const { return fullScale > 0; }
 };
@@ -18,13 +19,13 @@ struct ExposureScale {
 ExposureScale exposureScaleOf(std::string_view pixelType, double seconds);
 
 struct MergedPixel {
-    glm::vec3 radiance; // value / seconds
+    glm::vec3 radiance; // (value - offset) / seconds
     bool saturated;     // a channel was clipped in every exposure
 };
 
 // One pixel's linear values in [0, 1] (floats: any) in each exposure of a bracket to one radiance, channel by channel:
-// the mean of value / seconds with the weight seconds * hat(value), as shot noise asks for (Debevec and Malik,
-// Recovering High Dynamic Range Radiance Maps from Photographs, 1997, Eq. 6, in the linear domain). Where every
+// the mean of (value - offset) / seconds with the weight seconds * hat(value), as shot noise asks for (Debevec and
+// Malik, Recovering High Dynamic Range Radiance Maps from Photographs, 1997, Eq. 6, in the linear domain). Where every
 // exposure is clipped, the shortest one's value stands. A single exposure is taken as it is.
 MergedPixel mergeExposures(std::span<const glm::vec3> values, std::span<const ExposureScale> scales);
 

@@ -42,19 +42,21 @@ GivenPhotograph readPhotograph(const JsonNode& node, bool lightsAllowed)
         return {photographOf(node.existingPath()), false};
     }
     if (lightsAllowed) {
-        node.allowKeys({"file", "exposureSeconds", "exposures", "light"});
+        node.allowKeys({"file", "exposureSeconds", "exposures", "light", "skip"});
     } else {
         node.allowKeys({"file", "exposureSeconds", "exposures"});
     }
+    const auto skip = node.find("skip");
     if (const auto bracket = node.find("exposures")) {
         if (node.has("file") || node.has("exposureSeconds")) {
             throw node.error("has \"exposures\" beside a file or time of its own", "one of the two");
         }
-        Photograph photograph{"", bracketOf(*bracket)};
+        Photograph photograph{"", bracketOf(*bracket), skip && skip->truth()};
         photograph.name = photograph.exposures[0].file.filename().string();
         return {photograph, true};
     }
     GivenPhotograph given{photographOf(node.at("file").existingPath()), false};
+    given.photograph.skip = skip && skip->truth();
     if (const auto seconds = node.find("exposureSeconds")) {
         given.photograph.exposures[0].seconds = secondsOf(*seconds);
         given.exposureGiven = true;

@@ -13,7 +13,7 @@ struct JsonPhotographs {
 };
 
 // The entries of a "photographs" array: a file's name, an object with "file" and perhaps "exposureSeconds", or one
-// with "exposures"; "light" is a known key where lights are allowed. Times are given for all or for none.
+// with "exposures"; "light" and "skip" are known keys where lights are allowed. Times are given for all or for none.
 JsonPhotographs readPhotographs(const std::vector<JsonNode>& nodes, bool lightsAllowed);
 
 } // namespace nacre

@@ -104,30 +104,47 @@ LightFile loadLightFile(const fs::path& file)
     return result;
 }
 
+namespace {
+
+struct LpLine {
+    std::string_view photograph;
+    glm::vec3 vector;
+};
+
+// "file x y z"; empty where it is none.
+std::optional<LpLine> parseLpLine(std::string_view line)
+{
+    const NumbersAtEnd found = takeNumbersFromEnd(line, 3);
+    if (found.numbers.size() != 3 || found.rest.empty()) {
+        return std::nullopt;
+    }
+    return LpLine{found.rest, glm::vec3(found.numbers[0], found.numbers[1], found.numbers[2])};
+}
+
+} // namespace
+
 LightFile loadLpFile(const fs::path& file)
 {
     const std::vector<std::string> lines = loadTextLines(file);
     if (lines.empty()) {
         throw Error(file, "is empty", "a count, then \"file x y z\" a line");
     }
-    const size_t announced = parseCount(file, lines[0]);
-    requireAnnouncedCount(file, announced, lines.size() - 1);
+    const bool counted = !parseLpLine(lines[0]);
+    if (counted) {
+        requireAnnouncedCount(file, parseCount(file, lines[0]), lines.size() - 1);
+    }
     LightFile result;
-    for (size_t i = 1; i < lines.size(); ++i) {
-        std::string_view name = lines[i];
-        glm::vec3 v(0);
-        for (int axis = 2; axis >= 0; --axis) {
-            const auto number = parseNumber(takeLastToken(name));
-            if (!number || name.empty()) {
-                throw Error(file, fmt::format("\"{}\" is no photograph with its light", lines[i]), "\"file x y z\"");
-            }
-            v[axis] = static_cast<float>(*number);
+    for (size_t i = counted ? 1 : 0; i < lines.size(); ++i) {
+        const std::optional<LpLine> line = parseLpLine(lines[i]);
+        if (!line) {
+            throw Error(file, fmt::format("\"{}\" is no photograph with its light", lines[i]), "\"file x y z\"");
         }
-        if (!isDirection(v)) {
-            throw Error(file, fmt::format("the light of {} is {}", name, described(v)), kDirection);
+        if (!isDirection(line->vector)) {
+            throw Error(file, fmt::format("the light of {} is {}", line->photograph, described(line->vector)),
+                        kDirection);
         }
-        result.photographs.emplace_back(name);
-        result.lights.push_back({normalized(v), glm::vec3(1)});
+        result.photographs.emplace_back(line->photograph);
+        result.lights.push_back({normalized(line->vector), glm::vec3(1)});
     }
     return result;
 }
@@ -201,6 +218,16 @@ void saveLightFile(const fs::path& file, const LightFile& lights)
     }
     const json root{{"format", kLightsFormat}, {"version", kLightsVersion}, {"lights", std::move(list)}};
     writeTextFile(file, root.dump(2, ' ', false, json::error_handler_t::replace) + "\n");
+}
+
+void saveLpFile(const fs::path& file, const LightFile& lights)
+{
+    std::string text = fmt::format("{}\n", lights.lights.size());
+    for (size_t i = 0; i < lights.lights.size(); ++i) {
+        const glm::vec3& d = lights.lights[i].direction;
+        text += fmt::format("{} {:.7f} {:.7f} {:.7f}\n", lights.photographs[i], d.x, d.y, d.z);
+    }
+    writeTextFile(file, text);
 }
 
 } // namespace nacre

@@ -21,7 +21,7 @@ struct LightFile {
 // By extension: `.lp`, `.json` ("nacre lights", docs/formats.md), anything else a table of directions.
 LightFile loadLightFile(const std::filesystem::path& file);
 
-// RTI: the count of lights, then "file x y z" a line; names may hold spaces.
+// RTI: the count of lights, which may be missing, then "file x y z" a line; names may hold spaces.
 LightFile loadLpFile(const std::filesystem::path& file);
 
 // Three numbers a line, or three lines of equal length; three by three is three numbers a line. The count of lights
@@ -37,5 +37,8 @@ glm::vec3 irradianceOf(const JsonNode& node);
 
 // The "nacre lights" JSON; without irradiances where they are not given.
 void saveLightFile(const std::filesystem::path& file, const LightFile& lights);
+
+// The count and "file x y z" a line: directions alone.
+void saveLpFile(const std::filesystem::path& file, const LightFile& lights);
 
 } // namespace nacre

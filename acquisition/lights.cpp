@@ -7,7 +7,9 @@
 #include <Eigen/Dense>
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
 
+#include "acquisition/merged_photograph.h"
 #include "acquisition/mirror_sphere.h"
 #include "engine/scene/error.h"
 #include "engine/scene/measures.h"
@@ -20,38 +22,27 @@ namespace {
 
 // Beyond it, an error of 1 % in the photographs can turn the normal by more than it is long.
 constexpr double kWorstCondition = 100;
+constexpr double kLargestTurn = 2; // degrees
 
-Circle outlineOf(const SpherePhotographs& sphere, const Image& photograph)
+Circle outlineOf(const SpherePhotographs& sphere)
 {
     if (sphere.circle) {
         return *sphere.circle;
     }
-    const std::vector<uint8_t> mask = loadMask(sphere.maskFile, photograph.width, photograph.height);
-    return fitCircle(mask, photograph.width, photograph.height, sphere.maskFile);
-}
-
-// Longest exposure for shading, shortest for a highlight.
-const Exposure& longest(const Photograph& photograph)
-{
-    return *std::max_element(photograph.exposures.begin(), photograph.exposures.end(),
-                             [](const Exposure& a, const Exposure& b) { return a.seconds < b.seconds; });
-}
-
-const Exposure& shortest(const Photograph& photograph)
-{
-    return *std::min_element(photograph.exposures.begin(), photograph.exposures.end(),
-                             [](const Exposure& a, const Exposure& b) { return a.seconds < b.seconds; });
+    const ImageHeader header = readImageHeader(sphere.maskFile);
+    const std::vector<uint8_t> mask = loadMask(sphere.maskFile, header.width, header.height);
+    return fitCircle(mask, header.width, header.height, sphere.maskFile);
 }
 
 std::vector<Light> directionsFromMirror(const Capture& capture, int threads)
 {
     const SpherePhotographs& sphere = *capture.mirrorSphere;
     std::vector<Light> lights(sphere.photographs.size());
-    const Circle outline = outlineOf(sphere, loadPhotograph(shortest(sphere.photographs.front()).file, capture.curve));
+    const Circle outline = outlineOf(sphere);
     parallelFor(lights.size(), 1, threads, [&](size_t first, size_t) {
-        const std::filesystem::path& file = shortest(sphere.photographs[first]).file;
-        const Image image = loadPhotograph(file, capture.curve);
-        lights[first].direction = lightFromHighlight(findHighlight(image, outline, file), outline);
+        const std::filesystem::path& file = sphere.photographs[first].exposures.front().file;
+        const MergedPhotograph merged = loadMerged(sphere.photographs[first], capture);
+        lights[first].direction = lightFromHighlight(findHighlight(merged.radiance, outline, file), outline);
     });
     return lights;
 }
@@ -72,23 +63,42 @@ void scaleIrradiances(Rig& rig, const std::optional<glm::vec3>& reflectance)
 void addIrradiances(const Capture& capture, const CalibrationOptions& options, Rig& rig)
 {
     const SpherePhotographs& sphere = *capture.diffuseSphere;
-    const Circle outline = outlineOf(sphere, loadPhotograph(longest(sphere.photographs.front()).file, capture.curve));
-    rig.shadingDisagreement.resize(rig.lights.size());
+    const Circle outline = outlineOf(sphere);
+    std::vector<DiffuseSphereReading> readings(rig.lights.size());
     parallelFor(rig.lights.size(), 1, options.threads, [&](size_t i, size_t) {
-        const Exposure& exposure = longest(sphere.photographs[i]);
-        const Image image = loadPhotograph(exposure.file, capture.curve);
-        const DiffuseSphereReading reading =
-            readDiffuseSphere(image, outline, rig.lights[i].direction, exposure.file, options.rules);
-        if (!capture.irradianceGiven) {
-            rig.lights[i].irradiance = reading.radiance / static_cast<float>(exposure.seconds);
-        }
-        rig.shadingDisagreement[i] =
-            static_cast<float>(degreesBetween(reading.shadingDirection, rig.lights[i].direction));
+        const std::filesystem::path& file = sphere.photographs[i].exposures.front().file;
+        const MergedPhotograph merged = loadMerged(sphere.photographs[i], capture);
+        readings[i] =
+            readDiffuseSphere(merged.radiance, outline, rig.lights[i].direction, file, options.rules, merged.saturated);
     });
+    shareOffset(readings);
+    rig.shadingOffset = readings.front().offset;
+    for (size_t i = 0; i < readings.size(); ++i) {
+        rig.shadingDisagreement.push_back(
+            static_cast<float>(degreesBetween(readings[i].shadingDirection, rig.lights[i].direction)));
+    }
     if (!capture.irradianceGiven) {
+        for (size_t i = 0; i < readings.size(); ++i) {
+            rig.lights[i].irradiance = readings[i].radiance;
+        }
         scaleIrradiances(rig, options.sphereReflectance);
         rig.irradiancesFrom = sphere.source.string();
         rig.absolute = options.sphereReflectance.has_value();
+    }
+}
+
+// How far the direction to a light at a finite distance turns from the object's middle to its edge, in degrees.
+void warnOfNearLights(const Capture& capture, Rig& rig)
+{
+    if (!capture.lightDistance || !capture.objectWidth) {
+        return;
+    }
+    const double degrees = glm::degrees(std::atan2(*capture.objectWidth / 2, *capture.lightDistance));
+    if (degrees > kLargestTurn) {
+        rig.warnings.push_back(
+            fmt::format("the lights are not distant: with a width of {:g} at a distance of {:g}, their directions turn "
+                        "by {:.1f} degrees from the object's middle to its edge ({:.0f} are harmless)",
+                        *capture.objectWidth, *capture.lightDistance, degrees, kLargestTurn));
     }
 }
 
@@ -127,7 +137,7 @@ Rig calibrateLights(const Capture& capture, const CalibrationOptions& options)
     rig.irradiancesFrom = capture.irradianceGiven ? capture.lightsSource : "not known: 1 for every light";
     if (!capture.lights.empty()) {
         rig.lights = capture.lights;
-        rig.directionsFrom = capture.lightsSource;
+        rig.directionsFrom = capture.lightsSource + (capture.lightsOrder.empty() ? "" : ", " + capture.lightsOrder);
     } else if (capture.mirrorSphere) {
         rig.lights = directionsFromMirror(capture, options.threads);
         rig.directionsFrom = capture.mirrorSphere->source.string();
@@ -139,6 +149,7 @@ Rig calibrateLights(const Capture& capture, const CalibrationOptions& options)
         addIrradiances(capture, options, rig);
     }
     checkLights(capture, rig);
+    warnOfNearLights(capture, rig);
     return rig;
 }
 

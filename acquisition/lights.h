@@ -20,7 +20,9 @@ struct Rig {
     std::vector<Light> lights; // one per photograph, the capture's order
     std::vector<float>
         shadingDisagreement; // degrees per light between direction and the diffuse sphere's shading; empty without one
-    std::string directionsFrom; // for the user
+    float shadingOffset = 0; // constant that the diffuse sphere's photographs share, as radiance
+    std::vector<std::string> warnings; // for the user
+    std::string directionsFrom;        // for the user
     std::string irradiancesFrom;
     bool absolute = false; // irradiance in units of which the BRDF comes out in 1/sr
     double condition = 0;  // of the matrix of directions: largest over smallest singular value

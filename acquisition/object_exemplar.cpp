@@ -18,8 +18,6 @@ namespace {
 constexpr float kLeastCosine = 0.15f;
 constexpr size_t kMostSamples = 150000;
 constexpr glm::ivec3 kTableSize{64, 0, 16}; // thetaD: one texel for two degrees
-// The table carries the object's common scale: a pixel's own is its albedo, around 1.
-constexpr ScaleRange kOwnScales{0.5f, 2.0f};
 
 float medianScale(const ExemplarResult& result)
 {
@@ -83,9 +81,9 @@ std::vector<Verdict> judgeByExemplar(const Exemplar& exemplar, const Intensities
     return verdicts;
 }
 
-std::optional<Exemplar> makeObjectExemplar(const Intensities& sample, const ExemplarResult& result,
-                                           const std::vector<Verdict>& verdicts, const std::vector<Light>& lights,
-                                           const std::vector<float>& weights, int threads)
+std::optional<BrdfTable> makeObjectTable(const Intensities& sample, const ExemplarResult& result,
+                                         const std::vector<Verdict>& verdicts, const std::vector<Light>& lights,
+                                         const std::vector<float>& weights, int threads)
 {
     const BrdfSamples samples = gatherObjectSamples(sample, result, verdicts, lights, weights);
     if (samples.size() == 0) {
@@ -95,14 +93,18 @@ std::optional<Exemplar> makeObjectExemplar(const Intensities& sample, const Exem
     options.size = kTableSize;
     options.size.y = std::max(3, static_cast<int>(samples.domain.thetaDMax * 180 / kPi / 2));
     options.threads = threads;
-    const BrdfTable table = bakeBrdf(samples, {}, options).table;
+    return bakeBrdf(samples, {}, options).table;
+}
+
+Exemplar makeObjectExemplar(const BrdfTable& table, const std::vector<Light>& lights, int threads)
+{
     const auto reflectance = [&](const glm::vec3& n, const glm::vec3& l) {
         return evaluateTable(table, n, l, {0, 0, 1}).value.x;
     };
-    return Exemplar{"the object's own BRDF",
-                    {},
-                    makePredictedBall(kFineBallSize, directionsOf(lights), reflectance, threads),
-                    kOwnScales};
+    return {"the object's own BRDF",
+            {},
+            makePredictedBall(kFineBallSize, directionsOf(lights), reflectance, threads),
+            kOwnScales};
 }
 
 } // namespace nacre

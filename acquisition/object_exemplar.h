@@ -2,6 +2,7 @@
 #include <optional>
 
 #include "acquisition/exemplar_model.h"
+#include "engine/scene/brdf_table.h"
 
 namespace nacre {
 
@@ -15,10 +16,16 @@ size_t countOf(const std::vector<float>& weights);
 std::vector<Verdict> judgeByExemplar(const Exemplar& exemplar, const Intensities& intensities,
                                      const ExemplarResult& result, int threads);
 
-// The object's own BRDF as an exemplar: baked from the observations that have weight and are not in shadow, with the
-// normals and scales as given. Nothing where no observation is left.
-std::optional<Exemplar> makeObjectExemplar(const Intensities& sample, const ExemplarResult& result,
-                                           const std::vector<Verdict>& verdicts, const std::vector<Light>& lights,
-                                           const std::vector<float>& weights, int threads);
+// The object's own BRDF, grey, up to its common scale: baked from the observations that have weight and are not in
+// shadow, with the normals and scales as given. Nothing where no observation is left.
+std::optional<BrdfTable> makeObjectTable(const Intensities& sample, const ExemplarResult& result,
+                                         const std::vector<Verdict>& verdicts, const std::vector<Light>& lights,
+                                         const std::vector<float>& weights, int threads);
+
+// The table as an exemplar to match pixels with.
+Exemplar makeObjectExemplar(const BrdfTable& table, const std::vector<Light>& lights, int threads);
+
+// The table carries the object's common scale: a pixel's own is its albedo, around 1.
+constexpr ScaleRange kOwnScales{0.5f, 2.0f};
 
 } // namespace nacre

@@ -34,44 +34,61 @@ struct ObservationReader::State {
     State(const Capture& capture, int threads, size_t byteBudget);
 
     size_t exposureCount() const;
-    size_t bytesPerPixel() const { return photographs.size() * (sizeof(glm::vec3) + 1) + sizeof(uint32_t); }
+    size_t lightCount() const { return photographs.size() - (hasAmbient ? 1 : 0); }
+    size_t bytesPerPixel() const
+    {
+        return lightCount() * (sizeof(glm::vec3) + 1) + sizeof(uint32_t) + (hasAmbient ? sizeof(MergedPixel) : 0);
+    }
     size_t pixelsIn(int first, int last) const { return pixelsAbove[last] - pixelsAbove[first]; }
     void chooseRowsAtOnce(size_t byteBudget);
     void planBands(size_t byteBudget);
     size_t keepFilesOpen(size_t byteBudget);
     void listPixels(const Band& band, Observations& block) const;
-    void readPhotograph(size_t light, const Band& band, Observations& block);
+    // store(index in pixels, what is seen there) for each.
+    template <class Store>
+    void readPhotograph(std::vector<ExposureFile>& files, const Band& band, const std::vector<uint32_t>& pixels,
+                        Store&& store);
+    void readAmbient(const Band& band, const std::vector<uint32_t>& pixels);
+    void readLight(size_t light, const Band& band, Observations& block);
 
     int width;
     int height;
+    size_t rowBytes; // read of a file for a row of the capture
     int threads;
     std::vector<uint8_t> mask;
     std::vector<size_t> pixelsAbove; // mask pixels in the rows above each row, and in all
     int rowsAtOnce = 1;
     std::vector<Band> bands;
     size_t nextBand = 0;
-    std::optional<TemporaryFolder> copies; // outlives the files, which read from it
-    std::vector<std::vector<ExposureFile>> photographs;
+    std::optional<TemporaryFolder> copies;              // outlives the files, which read from it
+    std::vector<std::vector<ExposureFile>> photographs; // one per light, then the ambient one
+    bool hasAmbient;
+    std::vector<MergedPixel> ambient; // of the block
 };
 
 ObservationReader::State::State(const Capture& capture, int threadCount, size_t byteBudget)
     : width(capture.width), height(capture.height),
+      rowBytes(kRowBytesPerPixel * std::max(capture.width, capture.window.fileWidth) * capture.window.box),
       threads(threadCount > 0 ? threadCount : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()))),
-      mask(capture.mask), pixelsAbove(height + 1, 0)
+      mask(capture.mask), pixelsAbove(height + 1, 0), hasAmbient(capture.ambient.has_value())
 {
     for (int y = 0; y < height; ++y) {
         const auto row = mask.begin() + static_cast<ptrdiff_t>(y) * width;
         pixelsAbove[y + 1] =
             pixelsAbove[y] + std::count_if(row, row + width, [](uint8_t inside) { return inside != 0; });
     }
-    for (const Photograph& photograph : capture.photographs) {
+    const auto addPhotograph = [&](const Photograph& photograph) {
         std::vector<ExposureFile>& files = photographs.emplace_back();
         for (const Exposure& exposure : photograph.exposures) {
             files.emplace_back(exposure, capture);
         }
+    };
+    std::for_each(capture.photographs.begin(), capture.photographs.end(), addPhotograph);
+    if (hasAmbient) {
+        addPhotograph(*capture.ambient);
     }
     chooseRowsAtOnce(byteBudget / 4);
-    const size_t rowBuffers = kRowBytesPerPixel * width * rowsAtOnce * (exposureCount() + threads);
+    const size_t rowBuffers = rowBytes * rowsAtOnce * (exposureCount() + threads);
     const size_t blockBudget = byteBudget - std::min(byteBudget, rowBuffers);
     planBands(blockBudget);
     if (bands.size() > 1) { // otherwise each file is opened once, one after the other
@@ -88,7 +105,7 @@ size_t ObservationReader::State::exposureCount() const
 
 void ObservationReader::State::chooseRowsAtOnce(size_t byteBudget)
 {
-    const size_t bytesOfRow = kRowBytesPerPixel * width * (exposureCount() + threads);
+    const size_t bytesOfRow = rowBytes * (exposureCount() + threads);
     rowsAtOnce = static_cast<int>(std::clamp(byteBudget / std::max<size_t>(bytesOfRow, 1), size_t{1}, kRowsAtOnce));
 }
 
@@ -139,7 +156,7 @@ size_t ObservationReader::State::keepFilesOpen(size_t byteBudget)
 
 void ObservationReader::State::listPixels(const Band& band, Observations& block) const
 {
-    block.lightCount = photographs.size();
+    block.lightCount = lightCount();
     block.pixels.clear();
     block.pixels.reserve(pixelsIn(band.first, band.last));
     for (int y = band.first; y < band.last; ++y) {
@@ -164,14 +181,14 @@ void requireFinite(const glm::vec3& value, const ExposureFile& file, uint32_t pi
 
 } // namespace
 
-// Fills the column of one light.
-void ObservationReader::State::readPhotograph(size_t light, const Band& band, Observations& block)
+template <class Store>
+void ObservationReader::State::readPhotograph(std::vector<ExposureFile>& files, const Band& band,
+                                              const std::vector<uint32_t>& pixels, Store&& store)
 {
-    std::vector<ExposureFile>& files = photographs[light];
     std::vector<std::vector<glm::vec3>> rows(files.size());
     std::vector<ExposureScale> scales(files.size());
     std::vector<glm::vec3> values(files.size());
-    size_t next = 0; // of block.pixels
+    size_t next = 0; // of pixels
     for (int first = band.first; first < band.last; first += rowsAtOnce) {
         const int last = std::min(first + rowsAtOnce, band.last);
         if (pixelsIn(first, last) == 0) {
@@ -183,19 +200,36 @@ void ObservationReader::State::readPhotograph(size_t light, const Band& band, Ob
         }
         const size_t start = static_cast<size_t>(first) * width;
         for (const size_t end = next + pixelsIn(first, last); next < end; ++next) {
-            const uint32_t pixel = block.pixels[next];
+            const uint32_t pixel = pixels[next];
             for (size_t e = 0; e < files.size(); ++e) {
                 values[e] = rows[e][pixel - start];
                 requireFinite(values[e], files[e], pixel, width);
             }
-            const MergedPixel merged = mergeExposures(values, scales);
-            block.radiance[next * block.lightCount + light] = merged.radiance;
-            block.saturated[next * block.lightCount + light] = merged.saturated ? 1 : 0;
+            store(next, mergeExposures(values, scales));
         }
     }
     for (ExposureFile& file : files) {
         file.endBand();
     }
+}
+
+void ObservationReader::State::readAmbient(const Band& band, const std::vector<uint32_t>& pixels)
+{
+    ambient.resize(pixels.size());
+    readPhotograph(photographs.back(), band, pixels, [&](size_t i, const MergedPixel& seen) { ambient[i] = seen; });
+}
+
+// Fills the column of one light.
+void ObservationReader::State::readLight(size_t light, const Band& band, Observations& block)
+{
+    readPhotograph(photographs[light], band, block.pixels, [&](size_t i, MergedPixel seen) {
+        if (hasAmbient) {
+            seen.radiance -= ambient[i].radiance;
+            seen.saturated |= ambient[i].saturated;
+        }
+        block.radiance[i * block.lightCount + light] = seen.radiance;
+        block.saturated[i * block.lightCount + light] = seen.saturated ? 1 : 0;
+    });
 }
 
 ObservationReader::ObservationReader(const Capture& capture, int threads, size_t byteBudget)
@@ -222,12 +256,15 @@ bool ObservationReader::next(Observations& block)
     }
     block.radiance.resize(values);
     block.saturated.resize(values);
+    if (s.hasAmbient) {
+        s.readAmbient(band, block.pixels);
+    }
     // Whatever thread meets an error first, the first photograph's is thrown.
-    std::vector<std::exception_ptr> errors(s.photographs.size());
-    parallelFor(s.photographs.size(), 1, s.threads, [&](size_t first, size_t last) {
+    std::vector<std::exception_ptr> errors(s.lightCount());
+    parallelFor(s.lightCount(), 1, s.threads, [&](size_t first, size_t last) {
         for (size_t light = first; light < last; ++light) {
             try {
-                s.readPhotograph(light, band, block);
+                s.readLight(light, band, block);
             } catch (...) {
                 errors[light] = std::current_exception();
             }

@@ -11,7 +11,8 @@
 namespace nacre {
 
 // What a block of mask pixels shows under every light: radiance on the capture's common scale (integers divided by
-// their full scale, exposure time divided out, brackets merged); grey photographs have three equal channels.
+// their full scale, the capture's offset subtracted, exposure time divided out, brackets merged, the ambient photograph
+// subtracted, so that noise may leave values below 0); grey photographs have three equal channels.
 struct Observations {
     size_t lightCount = 0;
     std::vector<uint32_t> pixels;    // y * width + x, ascending

@@ -38,19 +38,22 @@ public:
     // Writes an uncompressed copy, which can be streamed, and keeps that open instead.
     void spill(const std::filesystem::path& copyWithoutExtension);
 
-    // Rows [first, last) as 3 channels each. Throws Error on unreadable files.
+    // Rows [first, last) of the capture's window as 3 channels each. A box of pixels that are averaged has full scale
+    // in a channel where any of them has, so that it counts as clipped. Throws Error on unreadable files.
     void read(int first, int last, std::vector<glm::vec3>& rgb);
     void endBand();
 
 private:
     ImageRows& open();
+    void gatherWindow(int rows, int channels, std::vector<glm::vec3>& rgb) const;
 
     std::filesystem::path file_;   // the user's
     std::filesystem::path source_; // the same, or its copy
     TransferCurve curve_;
     double seconds_;
-    int width_;
-    int height_;
+    FileWindow window_;
+    float offset_;
+    std::vector<float> values_; // rows of the file, where the window is not the whole of it
     ExposureScale scale_;
     std::optional<ImageRows> rows_;
     bool keptOpen_ = false;

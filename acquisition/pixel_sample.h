@@ -1,12 +1,11 @@
 #pragma once
 #include "acquisition/capture.h"
-#include "acquisition/intensities.h"
+#include "acquisition/observations.h"
 
 namespace nacre {
 
 // A few thousand pixels spread evenly over the whole mask, for methods that look at the object before its pixels.
 // `first` is the capture's first block; a capture of more blocks is read once for the sample.
-Intensities samplePixels(const Capture& capture, const std::vector<Light>& lights, const Observations& first,
-                         int threads, size_t byteBudget);
+Observations samplePixels(const Capture& capture, const Observations& first, int threads, size_t byteBudget);
 
 } // namespace nacre

@@ -125,6 +125,14 @@ double JsonNode::number() const
     return number;
 }
 
+bool JsonNode::truth() const
+{
+    if (!value_->is_boolean()) {
+        throw wrongType("true or false");
+    }
+    return value_->get<bool>();
+}
+
 std::vector<JsonNode> JsonNode::items() const
 {
     if (!value_->is_array()) {

@@ -32,6 +32,7 @@ public:
 
     std::string text() const;
     double number() const; // finite
+    bool truth() const;    // true or false
     std::vector<JsonNode> items() const;
     std::vector<double> numbers(size_t count) const; // an array of as many
     glm::vec3 vector3() const;

@@ -15,7 +15,8 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::string_view kWhiteSpace = " \t\r\f\v";
-constexpr std::string_view kSeparators = " \t\r\f\v,";
+constexpr std::string_view kBlanks = " \t\r\f\v;";
+constexpr std::string_view kBlanksAndCommas = " \t\r\f\v;,";
 constexpr std::string_view kUtf8ByteOrderMark = "\xef\xbb\xbf";
 
 std::string_view trimmed(std::string_view text)
@@ -24,19 +25,59 @@ std::string_view trimmed(std::string_view text)
     return text.substr(0, text.find_last_not_of(kWhiteSpace) + 1); // npos + 1 is 0
 }
 
+// The last token, cut off `text` together with the separators in front of it.
+std::string_view takeLastToken(std::string_view& text, std::string_view separators)
+{
+    const std::string_view token = text.substr(text.find_last_of(separators) + 1); // npos + 1 is 0
+    text.remove_suffix(token.size());
+    text = text.substr(0, text.find_last_not_of(separators) + 1);
+    return token;
+}
+
+// A decimal comma stands between digits, alone.
+std::optional<double> parseCommaNumber(std::string_view token)
+{
+    while (token.ends_with(',')) { // a separator beside white space
+        token.remove_suffix(1);
+    }
+    std::string text(token);
+    const size_t comma = text.find(',');
+    if (comma != std::string::npos) {
+        const auto isDigit = [&](size_t i) { return i < text.size() && text[i] >= '0' && text[i] <= '9'; };
+        if (comma == 0 || !isDigit(comma - 1) || !isDigit(comma + 1) || text.find('.') != std::string::npos) {
+            return std::nullopt;
+        }
+        text[comma] = '.';
+    }
+    return parseNumber(text);
+}
+
+template <class Parse>
+NumbersAtEnd numbersAtEnd(std::string_view line, size_t most, std::string_view separators, Parse parse)
+{
+    NumbersAtEnd found{{}, line};
+    found.rest = line.substr(0, line.find_last_not_of(separators) + 1);
+    while (!found.rest.empty() && found.numbers.size() < most) {
+        std::string_view shorter = found.rest;
+        const std::optional<double> number = parse(takeLastToken(shorter, separators));
+        if (!number) {
+            break;
+        }
+        found.numbers.push_back(*number);
+        found.rest = shorter;
+    }
+    std::reverse(found.numbers.begin(), found.numbers.end());
+    return found;
+}
+
 std::vector<double> parseRow(const fs::path& file, std::string_view line)
 {
-    std::vector<double> row;
-    while (!line.empty()) {
-        const std::string_view token = takeLastToken(line);
-        const auto number = parseNumber(token);
-        if (!number) {
-            throw Error(file, fmt::format("\"{}\" is no number", token), "finite numbers");
-        }
-        row.push_back(*number);
+    NumbersAtEnd found = takeNumbersFromEnd(line, std::string_view::npos);
+    if (!found.rest.empty()) {
+        throw Error(file, fmt::format("\"{}\" is no number", takeLastToken(found.rest, kBlanksAndCommas)),
+                    "finite numbers");
     }
-    std::reverse(row.begin(), row.end());
-    return row;
+    return found.numbers;
 }
 
 void requireEqualRows(const fs::path& file, const NumberTable& rows)
@@ -82,12 +123,14 @@ std::optional<double> parseNumber(std::string_view token)
     return value;
 }
 
-std::string_view takeLastToken(std::string_view& text)
+NumbersAtEnd takeNumbersFromEnd(std::string_view line, size_t most)
 {
-    const std::string_view token = text.substr(text.find_last_of(kSeparators) + 1); // npos + 1 is 0
-    text.remove_suffix(token.size());
-    text = text.substr(0, text.find_last_not_of(kSeparators) + 1);
-    return token;
+    NumbersAtEnd found = numbersAtEnd(line, most, kBlanks, parseCommaNumber);
+    if (found.numbers.size() == most || found.rest.empty()) {
+        found.rest = found.rest.substr(0, found.rest.find_last_not_of(kBlanksAndCommas) + 1);
+        return found;
+    }
+    return numbersAtEnd(line, most, kBlanksAndCommas, parseNumber);
 }
 
 NumberTable loadNumberTable(const fs::path& file)

@@ -13,8 +13,14 @@ std::vector<std::string> loadTextLines(const std::filesystem::path& file);
 // Independent of the locale; NaN and infinity are no numbers here.
 std::optional<double> parseNumber(std::string_view token);
 
-// The last token, cut off `text` together with the white space or commas in front of it.
-std::string_view takeLastToken(std::string_view& text);
+// The last numbers of a line, at most as many as asked for, in their order, and what stands before them. White space,
+// semicolons and commas part numbers; a comma between digits is a decimal comma where the numbers are parted otherwise
+// as well ("0,5 1,5" and "0,5;1,5" are two numbers, "0,5,1" three). `numbers` is shorter where a token is none.
+struct NumbersAtEnd {
+    std::vector<double> numbers;
+    std::string_view rest;
+};
+NumbersAtEnd takeNumbersFromEnd(std::string_view line, size_t most);
 
 // Lines of numbers, all of one length. A first line of one number is the count of the lines (or of the columns, where
 // there are three lines), which is checked and left out. Throws Error; the table is not empty.

@@ -46,19 +46,23 @@ AcquireOptions optionsOf(const AcquireArguments& arguments)
     return options;
 }
 
-void checkOutput(const std::filesystem::path& output, bool force)
+// Refuses now what it would refuse after the work.
+void checkOutputs(const AcquireArguments& arguments)
 {
-    if (output.extension() != ".nacre") {
-        throw Error(output, "is no name for a surface", "-o NAME.nacre", Error::kUsage);
+    if (arguments.output.extension() != ".nacre") {
+        throw Error(arguments.output, "is no name for a surface", "-o NAME.nacre", Error::kUsage);
     }
-    WholeOutput(output, force); // refuses now what it would refuse after the work
+    WholeOutput(arguments.output, arguments.common.force);
+    if (!arguments.common.json.empty()) {
+        WholeOutput(arguments.common.json, true);
+    }
 }
 
 void runAcquire(AcquireArguments& arguments)
 {
     const CaptureArguments& common = arguments.common;
     const AcquireOptions options = optionsOf(arguments);
-    checkOutput(arguments.output, common.force);
+    checkOutputs(arguments);
     const Capture capture = arguments.common.load();
     if (!common.quiet) {
         fmt::print("{}", describe(capture));

@@ -55,6 +55,21 @@ std::string describe(const Capture& capture)
     if (exposures > capture.photographs.size()) {
         text += fmt::format(" from {} exposures", exposures);
     }
+    if (!capture.skipped.empty()) {
+        text += fmt::format("\nskipped      {}", fmt::join(capture.skipped, ", "));
+    }
+    const FileWindow& window = capture.window;
+    if (capture.width != window.fileWidth || capture.height != window.fileHeight) {
+        text +=
+            fmt::format("\nwindow       {}x{} from ({}, {}) of {}x{}, {}x{} pixels averaged to one", window.width,
+                        window.height, window.x, window.y, window.fileWidth, window.fileHeight, window.box, window.box);
+    }
+    if (!capture.offsetSource.empty()) {
+        text += fmt::format("\noffset       {:.4f} subtracted ({})", capture.offset, capture.offsetSource);
+    }
+    if (capture.ambient) {
+        text += fmt::format("\nambient      {} subtracted; noise may leave values below 0", capture.ambient->name);
+    }
     return text + fmt::format("\nmask         {} pixels ({:.1f} %)\ncurve        {} ({})\n", capture.maskPixels,
                               100.0 * static_cast<double>(capture.maskPixels) / (1.0 * capture.width * capture.height),
                               capture.curve == TransferCurve::srgb ? "sRGB" : "linear", capture.curveSource);
@@ -75,6 +90,10 @@ std::string describe(const Capture& capture, const Rig& rig)
             "\nthe diffuse sphere's own shading puts the lights {:.2f} degrees elsewhere in the mean, {:.2f} at most\n",
             meanOf(rig.shadingDisagreement),
             *std::max_element(rig.shadingDisagreement.begin(), rig.shadingDisagreement.end()));
+        text += fmt::format("beneath its shading lies an offset of {:.4f}\n", rig.shadingOffset);
+    }
+    for (const std::string& warning : rig.warnings) {
+        text += fmt::format("warning: {}\n", warning);
     }
     return text;
 }
@@ -133,7 +152,7 @@ std::string describeBrdf(const Acquisition& acquisition)
     const SampleCounts& counts = acquisition.samples;
     const BrdfTable& table = acquisition.surface.materials.front().table;
     return fmt::format("observations {} used; left out: {} in shadow or grazing, {} saturated, {} of pixels without a "
-                       "normal, {} to thin\n"
+                       "normal, {} to thin them out\n"
                        "table        {}, scale {}\n",
                        counts.used, counts.shadowed, counts.saturated, counts.withoutNormal, counts.thinned,
                        describe(table),

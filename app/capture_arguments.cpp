@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "acquisition/text_files.h"
 #include "engine/scene/error.h"
 #include "engine/scene/material_specification.h"
 
@@ -21,9 +22,25 @@ glm::vec3 reflectanceOf(const std::vector<float>& values)
     return values.size() == 1 ? glm::vec3(values[0]) : glm::vec3(values[0], values[1], values[2]);
 }
 
+OffsetChoice offsetChoiceOf(const std::string& text)
+{
+    if (text == "auto") {
+        return {true, 0};
+    }
+    if (text == "none") {
+        return {false, 0};
+    }
+    const std::optional<double> value = parseNumber(text);
+    if (!value || *value < 0 || *value >= 1) {
+        throw Error("", fmt::format("--offset {} is not understood", text), "a number from 0 to below 1, auto or none",
+                    Error::kUsage);
+    }
+    return {false, static_cast<float>(*value)};
+}
+
 } // namespace
 
-void CaptureArguments::addTo(CLI::App& command)
+void CalibrationArguments::addTo(CLI::App& command)
 {
     command.add_option("CAPTURE", folder, "Folder of photographs")->required();
     command.add_option("--mirror-sphere", capture.mirrorSphere,
@@ -40,6 +57,20 @@ void CaptureArguments::addTo(CLI::App& command)
     command.add_option("--mask", capture.mask, "Picture that is white on the object");
     command.add_option("--transfer", transfer,
                        "Curve of the photographs: linear or srgb (default: what the files declare)");
+    command
+        .add_option("--offset", offset,
+                    "Subtracted from every value (0..1): a number, none, or auto to estimate it from shadows "
+                    "(default: what capture.json says, else none)")
+        ->option_text("VALUE|auto|none");
+    command.add_option("--skip", capture.skip, "NAME[,NAME] of photographs to leave out")->delimiter(',');
+    command.add_option("--threads", threads, "Threads (default: all)");
+    command.add_flag("--quiet", quiet, "No progress, no summary");
+    command.add_flag("--force", force, "Replace an output that exists");
+}
+
+void CaptureArguments::addTo(CLI::App& command)
+{
+    CalibrationArguments::addTo(command);
     command.add_option("--normals", normals, "Method: " + normalMethodNames())->capture_default_str();
     command
         .add_option("--thresholds", thresholds,
@@ -53,14 +84,11 @@ void CaptureArguments::addTo(CLI::App& command)
         "Folder of published fits that exemplars use beside the built-in ones [environment variable NACRE_FITS_DIR]");
     command.add_option("--exclude-reflectance", excludedReflectances, "NAME[,NAME] of published fits to leave out")
         ->delimiter(',');
-    command.add_option("--threads", threads, "Threads (default: all)");
     command.add_option("--json", json, "Write the summary to this file too");
     command.add_option("--debug-dir", debugFolder, "Write every stage's result as a picture");
-    command.add_flag("--quiet", quiet, "No progress, no summary");
-    command.add_flag("--force", force, "Replace an output that exists");
 }
 
-Capture CaptureArguments::load()
+Capture CalibrationArguments::load()
 {
     if (!transfer.empty() && transfer != "linear" && transfer != "srgb") {
         throw Error("", fmt::format("--transfer {} is no curve", transfer), "linear or srgb", Error::kUsage);
@@ -68,7 +96,23 @@ Capture CaptureArguments::load()
     if (!transfer.empty()) {
         capture.transfer = transfer == "srgb" ? TransferCurve::srgb : TransferCurve::linear;
     }
+    if (!offset.empty()) {
+        capture.offset = offsetChoiceOf(offset);
+    }
     return loadCapture(folder, capture);
+}
+
+CalibrationOptions CalibrationArguments::calibrationOptions() const
+{
+    CalibrationOptions options;
+    if (!sphereReflectance.empty()) {
+        options.sphereReflectance = reflectanceOf(sphereReflectance);
+    }
+    if (threads < 0) {
+        throw Error("", fmt::format("--threads {} is not possible", threads), "1 or more, or 0 for all", Error::kUsage);
+    }
+    options.threads = threads;
+    return options;
 }
 
 AcquireOptions CaptureArguments::stageOptions() const
@@ -91,12 +135,7 @@ AcquireOptions CaptureArguments::stageOptions() const
         options.normals.lowThreshold = thresholds[0];
         options.normals.highThreshold = thresholds[1];
     }
-    if (!sphereReflectance.empty()) {
-        options.calibration.sphereReflectance = reflectanceOf(sphereReflectance);
-    }
-    if (threads < 0) {
-        throw Error("", fmt::format("--threads {} is not possible", threads), "1 or more, or 0 for all", Error::kUsage);
-    }
+    options.calibration = calibrationOptions();
     options.setThreads(threads);
     return options;
 }

@@ -9,6 +9,7 @@ void addRenderCommand(CLI::App& app);
 void addSynthCommand(CLI::App& app);
 void addAcquireCommand(CLI::App& app);
 void addNormalsCommand(CLI::App& app);
+void addCalibrateCommand(CLI::App& app);
 void addCompareCommand(CLI::App& app);
 void addDemoCommand(CLI::App& app);
 

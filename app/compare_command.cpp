@@ -79,7 +79,7 @@ void addCompareCommand(CLI::App& app)
     CLI::App* command = app.add_subcommand("compare", "How far a picture is from a reference: PSNR of radiance");
     command
         ->add_option("PICTURE", arguments->picture,
-                     "Picture to judge: float, or integers of a linear or declared curve")
+                     "Picture to judge, of linear radiance: render's .exr (its .png is exposed for the eye)")
         ->required();
     command->add_option("REFERENCE", arguments->reference, "Picture that is taken for true")->required();
     command->add_option("--mask", arguments->mask, "Picture that is white where to compare");

@@ -13,6 +13,7 @@
 #include "assets/synth_capture.h"
 #include "assets/woven_cloth.h"
 #include "engine/gpu/renderer.h"
+#include "engine/scene/error.h"
 #include "engine/scene/measures.h"
 #include "engine/scene/whole_file.h"
 
@@ -139,6 +140,10 @@ Image makeSheet(const Capture& capture, const Surface& surface, const DemoArgume
 void runDemo(const DemoArguments& arguments)
 {
     const auto start = std::chrono::steady_clock::now();
+    if (arguments.threads < 0) {
+        throw Error("", fmt::format("--threads {} is not possible", arguments.threads), "1 or more, or 0 for all",
+                    Error::kUsage);
+    }
     WholeOutput output(arguments.folder, arguments.force);
     std::filesystem::create_directory(output.temporary());
     if (!arguments.quiet) {

@@ -1,10 +1,36 @@
+#include <cctype>
 #include <cstdio>
 #include <exception>
+#include <filesystem>
+#include <new>
+
+#include <fmt/format.h>
 
 #include "app/commands.h"
 #include "engine/scene/error.h"
 
 namespace {
+
+constexpr int kInternalError = 70; // EX_SOFTWARE of sysexits.h
+
+// CLI11's sentence as one line of ours, which names the command whose help has the answer.
+nacre::Error usageError(const CLI::App& app, const CLI::ParseError& e)
+{
+    const auto commands = app.get_subcommands();
+    if (commands.empty()) {
+        const std::vector<std::string> unknown = app.remaining();
+        return {"", unknown.empty() ? "no command is given" : fmt::format("'{}' is no command", unknown.front()),
+                "see nacre --help", nacre::Error::kUsage};
+    }
+    std::string text = e.what();
+    const std::string unconverted = "Could not convert: ";
+    if (text.rfind(unconverted, 0) == 0) {
+        text = fmt::format("'{}' is not understood", text.substr(unconverted.size()));
+    } else if (text.size() > 1 && std::islower(static_cast<unsigned char>(text[1]))) {
+        text[0] = static_cast<char>(std::tolower(static_cast<unsigned char>(text[0])));
+    }
+    return {"", text, fmt::format("see nacre {} --help", commands.front()->get_name()), nacre::Error::kUsage};
+}
 
 int runCommandLine(int argc, char** argv)
 {
@@ -13,6 +39,7 @@ int runCommandLine(int argc, char** argv)
     app.require_subcommand(1);
     nacre::addAcquireCommand(app);
     nacre::addNormalsCommand(app);
+    nacre::addCalibrateCommand(app);
     nacre::addRenderCommand(app);
     nacre::addSynthCommand(app);
     nacre::addInfoCommand(app);
@@ -21,7 +48,10 @@ int runCommandLine(int argc, char** argv)
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& e) {
-        return app.exit(e) == 0 ? 0 : nacre::Error::kUsage;
+        if (e.get_exit_code() != 0) {
+            throw usageError(app, e);
+        }
+        return app.exit(e); // --help and --version
     }
     return 0;
 }
@@ -35,8 +65,15 @@ int main(int argc, char** argv)
     } catch (const nacre::Error& e) {
         std::fprintf(stderr, "nacre: %s\n", e.what());
         return e.exitCode();
+    } catch (const std::filesystem::filesystem_error& e) {
+        std::fprintf(stderr, "nacre: %s: %s; a place that may be read and written\n", e.path1().c_str(),
+                     e.code().message().c_str());
+        return nacre::Error::kData;
+    } catch (const std::bad_alloc&) {
+        std::fprintf(stderr, "nacre: not enough memory; fewer or smaller pictures\n");
+        return nacre::Error::kData;
     } catch (const std::exception& e) {
         std::fprintf(stderr, "nacre: internal error: %s\n", e.what());
-        return 70;
+        return kInternalError;
     }
 }

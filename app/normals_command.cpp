@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "acquisition/capture_window.h"
 #include "acquisition/matlab_normals.h"
 #include "app/acquisition_summary.h"
 #include "app/capture_arguments.h"
@@ -26,19 +27,29 @@ struct NormalsArguments {
 
 AngularError compareWithTruth(const Capture& capture, const NormalMap& normals, const std::filesystem::path& file)
 {
-    const NormalMap truth = loadTrueNormals(file);
-    if (truth.width != capture.width || truth.height != capture.height) {
-        throw Error(file, fmt::format("is {}x{}", truth.width, truth.height),
-                    fmt::format("true normals of the photographs' size, {}x{}", capture.width, capture.height));
-    }
+    const NormalMap truth = windowedNormals(loadTrueNormals(file), capture, file);
     return angularError(normals, truth, capture.mask);
+}
+
+// Refuses now what it would refuse after the work.
+void checkOutputs(const NormalsArguments& arguments)
+{
+    const std::filesystem::path extension = arguments.output.extension();
+    if (extension != ".exr" && extension != ".png") {
+        throw Error(arguments.output, "is no normal map that normals writes", ".exr (float) or .png (16-bit)",
+                    Error::kUsage);
+    }
+    WholeOutput(arguments.output, arguments.common.force);
+    if (!arguments.common.json.empty()) {
+        WholeOutput(arguments.common.json, true);
+    }
 }
 
 void runNormals(NormalsArguments& arguments)
 {
     const CaptureArguments& common = arguments.common;
     const AcquireOptions options = common.stageOptions();
-    WholeOutput(arguments.output, common.force); // refuses now what it would refuse after the work
+    checkOutputs(arguments);
     const Capture capture = arguments.common.load();
     const NormalEstimate result = estimateCaptureNormals(capture, options, progressLine(common.quiet));
     endProgressLine(common.quiet);

@@ -143,9 +143,11 @@ void addRenderCommand(CLI::App& app)
                      "x,y,z[,r,g,b]: direction towards the light (x right, y up, z towards the camera), irradiance "
                      "(default 1); or captured:N. Repeatable (default: captured:1)")
         ->allow_extra_args(false);
-    CLI::Option* onto = command->add_option("--onto", arguments->onto,
-                                            "Put the first material onto these camera-frame normals: .exr, 16-bit .png "
-                                            "(n = 2v - 1, black = no data) or another NAME.nacre");
+    CLI::Option* onto =
+        command->add_option("--onto", arguments->onto,
+                            "Put the first material onto these camera-frame normals: .exr, .png (16-bit "
+                            "best; n = 2v - 1, black = no data) or another NAME.nacre; a tangent-space "
+                            "map makes a flat piece seen from the front");
     command->add_option("--normal-y", arguments->normalY, "Green of --onto's picture: gl (up) or dx (down)")
         ->needs(onto)
         ->capture_default_str();
@@ -157,7 +159,7 @@ void addRenderCommand(CLI::App& app)
         ->required();
     command->add_flag("--force", arguments->force, "Replace an output that exists");
     command->add_flag("--quiet", arguments->quiet, "Print nothing");
-    command->footer("Example:\n  nacre render horse.nacre --light -0.5,0.3,1 --light 0.6,0,1,1,0.8,0.6 --size 640x480 "
+    command->footer("Example:\n  nacre render horse.nacre --light=-0.5,0.3,1 --light 0.6,0,1,1,0.8,0.6 --size 640x480 "
                     "-o horse.png\n  nacre render horse.nacre --onto cloth.exr -o cloth.exr");
     command->callback([arguments] { runRender(*arguments); });
 }

@@ -1,10 +1,10 @@
-#include <map>
 #include <memory>
 
 #include <fmt/format.h>
 
 #include "app/commands.h"
 #include "assets/synth_capture.h"
+#include "engine/scene/error.h"
 #include "engine/scene/material_specification.h"
 
 namespace nacre {
@@ -14,6 +14,8 @@ struct SynthArguments {
     SynthOptions options;
     std::filesystem::path output;
     std::filesystem::path fits;
+    std::string shape = "bumpy";
+    std::string format = "png";
     int size = 256;
     bool noShadows = false;
     bool force = false;
@@ -39,9 +41,31 @@ void describe(const SynthArguments& arguments, const SynthScene& scene)
     fmt::print("truth in {}; seed {}\n", (arguments.output / "truth").string(), o.seed);
 }
 
+SynthShape shapeOf(const std::string& name)
+{
+    if (name != "bumpy" && name != "sphere") {
+        throw Error("", fmt::format("--shape {} is not known", name), "bumpy or sphere", Error::kUsage);
+    }
+    return name == "bumpy" ? SynthShape::bumpy : SynthShape::sphere;
+}
+
+SynthFormat formatOf(const std::string& name)
+{
+    if (name != "png" && name != "exr") {
+        throw Error("", fmt::format("--format {} is not known", name), "png or exr", Error::kUsage);
+    }
+    return name == "png" ? SynthFormat::png16 : SynthFormat::exr;
+}
+
 void run(SynthArguments& arguments)
 {
     SynthOptions& o = arguments.options;
+    o.shape = shapeOf(arguments.shape);
+    o.format = formatOf(arguments.format);
+    if (o.threads < 0) {
+        throw Error("", fmt::format("--threads {} is not possible", o.threads), "1 or more, or 0 for all",
+                    Error::kUsage);
+    }
     o.width = o.height = arguments.size;
     o.shadows = !arguments.noShadows;
     o.fitsFolder = fitsFolderFrom(arguments.fits);
@@ -61,10 +85,7 @@ void addSynthCommand(CLI::App& app)
     CLI::App* command = app.add_subcommand("synth", "Make a capture of a solid whose truth is known");
     command->footer(kExample);
     command->add_option("OUT", arguments->output, "Folder to write")->required();
-    const std::map<std::string, SynthShape> shapes{{"bumpy", SynthShape::bumpy}, {"sphere", SynthShape::sphere}};
-    command->add_option("--shape", o.shape, "bumpy (casts shadows) or sphere [bumpy]")
-        ->transform(CLI::CheckedTransformer(shapes))
-        ->option_text("bumpy|sphere");
+    command->add_option("--shape", arguments->shape, "bumpy (casts shadows) or sphere")->capture_default_str();
     command->add_option("--size", arguments->size, "Side of a photograph, pixels")->capture_default_str();
     command->add_option("--lights", o.lights, "Number of lights, one photograph each")->capture_default_str();
     command->add_option("--material", o.material, "Reflectance, see below")->capture_default_str();
@@ -73,10 +94,7 @@ void addSynthCommand(CLI::App& app)
                         "[environment variable NACRE_FITS_DIR]");
     command->add_option("--noise", o.noise, "Standard deviation, share of the object's 99th percentile")
         ->capture_default_str();
-    const std::map<std::string, SynthFormat> formats{{"png", SynthFormat::png16}, {"exr", SynthFormat::exr}};
-    command->add_option("--format", o.format, "png (16-bit linear) or exr (float) [png]")
-        ->transform(CLI::CheckedTransformer(formats))
-        ->option_text("png|exr");
+    command->add_option("--format", arguments->format, "png (16-bit linear) or exr (float)")->capture_default_str();
     command->add_option("--exposures", o.exposures, "Relative times of each photograph's bracket, e.g. 1,0.25 [1]")
         ->delimiter(',');
     command->add_flag("--no-shadows", arguments->noShadows, "Let the solid cast no shadow on itself");
@@ -88,7 +106,7 @@ void addSynthCommand(CLI::App& app)
         ->capture_default_str();
     command->add_option("--seed", o.seed, "Of the lights' places and strengths and of the noise")
         ->capture_default_str();
-    command->add_option("--threads", o.threads, "0 = all")->capture_default_str();
+    command->add_option("--threads", o.threads, "Threads (0: all)")->capture_default_str();
     command->add_flag("--force", arguments->force, "Replace an existing capture");
     command->add_flag("--quiet", arguments->quiet, "Print nothing");
     command->callback([arguments] { run(*arguments); });

@@ -295,6 +295,7 @@ OIIO::ImageSpec specOf(const fs::path& file, const Image& image, PixelType type,
         spec.attribute("oiio:ColorSpace", type == PixelType::uint8 ? "sRGB" : "Linear");
     }
     spec.attribute("oiio:UnassociatedAlpha", 1);
+    spec.attribute("DateTime", ""); // the EXR writer would put the time here: same input, same bytes
     for (const ImageAttribute& attribute : attributes) {
         spec.attribute(attribute.name, attribute.value);
     }

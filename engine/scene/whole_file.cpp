@@ -53,11 +53,13 @@ WholeOutput::~WholeOutput()
     fs::remove_all(temporary_, ignored);
 }
 
-// A folder cannot be renamed over a full one: the old one steps aside first, and comes back if the rename fails.
+// A folder cannot be renamed over a full one or over a file: the old one steps aside first, and comes back if the
+// rename fails.
 void WholeOutput::commit()
 {
     std::error_code error;
-    if (!fs::is_directory(destination_, error)) {
+    const bool folders = fs::is_directory(destination_, error) || fs::is_directory(temporary_, error);
+    if (!folders || !fs::exists(destination_)) {
         fs::rename(temporary_, destination_, error);
     } else {
         const fs::path aside = temporary_.string() + ".old";

@@ -95,11 +95,61 @@ TEST_F(LightFiles, LpNamesMayHoldSpacesAndNumbers)
     EXPECT_FALSE(lights.irradianceGiven);
 }
 
+TEST_F(LightFiles, LpWithoutCountIsUnderstood)
+{
+    const LightFile lights = loadLpFile(write("a.lp", "a.png 0 0 1\nb c.png 0 3 4\n"));
+    EXPECT_EQ(lights.photographs, (std::vector<std::string>{"a.png", "b c.png"}));
+    expectVector(lights.lights[1].direction, {0, 0.6f, 0.8f});
+}
+
+TEST_F(LightFiles, DecimalCommas)
+{
+    const glm::vec3 expected = glm::normalize(glm::vec3(0.123f, -0.456f, 1));
+    const LightFile lp = loadLpFile(write("a.lp", "4\r\na 1,5.png 0,123 -0,456 1\r\nb.png\t0,123\t-0,456\t1,0\r\n"
+                                                  "c,d.png;0,123;-0,456;1\r\ne.png, 0,123, -0,456, 1\r\n"));
+    EXPECT_EQ(lp.photographs, (std::vector<std::string>{"a 1,5.png", "b.png", "c,d.png", "e.png"}));
+    for (const Light& light : lp.lights) {
+        expectVector(light.direction, expected);
+    }
+    const auto table = loadDirections(write("l.txt", "0,123 -0,456 1\n0,123;-0,456;1,000\n0,123\t-0,456\t1\n"));
+    ASSERT_EQ(table.size(), 3u);
+    for (const glm::vec3& direction : table) {
+        expectVector(direction, expected);
+    }
+    EXPECT_EQ(loadIrradiances(write("i.txt", "0,5\n1,25\n")),
+              (std::vector<glm::vec3>{glm::vec3(0.5f), glm::vec3(1.25f)}));
+}
+
+TEST_F(LightFiles, CommasBetweenNumbersAreSeparators)
+{
+    for (const char* line : {"0,3,4", "0.0,0.3,0.4", "0, 3, 4", "0 ,3 ,4", "0,3.0,4"}) {
+        expectVector(loadDirections(write("l.txt", std::string(line) + "\n"))[0], {0, 0.6f, 0.8f});
+        const LightFile lp = loadLpFile(write("a.lp", "1\na.png," + std::string(line) + "\n"));
+        expectVector(lp.lights[0].direction, {0, 0.6f, 0.8f});
+    }
+}
+
+TEST_F(LightFiles, LpRoundTrip)
+{
+    LightFile lights;
+    lights.lights = {{glm::normalize(glm::vec3(1, 2, 3)), {}}, {{0, 0, 1}, {}}};
+    lights.photographs = {"a b 1.png", "c.png"};
+    saveLpFile(folder_ / "l.lp", lights);
+    const LightFile read = loadLightFile(folder_ / "l.lp");
+    EXPECT_EQ(read.photographs, lights.photographs);
+    EXPECT_FALSE(read.irradianceGiven);
+    for (size_t i = 0; i < 2; ++i) {
+        expectVector(read.lights[i].direction, lights.lights[i].direction);
+    }
+}
+
 TEST_F(LightFiles, LpRefusesWrongLines)
 {
     expectError([&] { loadLpFile(write("a.lp", "3\na.png 0 0 1\nb.png 0 0 1\n")); },
                 {"a.lp", "announces 3", "lists 2"});
-    expectError([&] { loadLpFile(write("a.lp", "a.png 0 0 1\n")); }, {"a.lp", "a.png 0 0 1", "number of lights"});
+    expectError([&] { loadLpFile(write("a.lp", "3 lights\na.png 0 0 1\n")); },
+                {"a.lp", "begins with \"3 lights\"", "number of lights"});
+    expectError([&] { loadLpFile(write("a.lp", "a.png 0 0 1\nb.png 0 0\n")); }, {"a.lp", "\"b.png 0 0\""});
     expectError([&] { loadLpFile(write("a.lp", "1\na.png 0 1\n")); }, {"\"a.png 0 1\""});
     expectError([&] { loadLpFile(write("a.lp", "1\n0 0 1\n")); }, {"\"0 0 1\""});
     expectError([&] { loadLpFile(write("a.lp", "1\na.png 0 0 0\n")); }, {"a.png", "(0, 0, 0)"});

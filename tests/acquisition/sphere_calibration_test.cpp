@@ -133,6 +133,55 @@ TEST(DiffuseSphere, IntensityWithinHalfAPercentAndOffsetFound)
     EXPECT_LT(degreesBetween(offset.shadingDirection, l), 0.3);
 }
 
+TEST(DiffuseSphere, AReflectanceThatIsNotLambertsIsNotTakenForAnOffset)
+{
+    // Flatter than Lambert's cosine, as rough and cheaply painted spheres are; a free offset would explain that.
+    const auto pictureUnder = [](const glm::vec3& l) {
+        return spherePicture(200, 180, kCircle, [=](const glm::vec3& n) {
+            return glm::vec3(std::pow(std::max(0.0f, glm::dot(n, l)), 0.8f));
+        });
+    };
+    std::vector<glm::vec3> lights = {glm::normalize(glm::vec3(0.17f, 0.05f, 1)), glm::normalize(glm::vec3(0.7f, 0, 1)),
+                                     glm::normalize(glm::vec3(-0.3f, 0.6f, 1))};
+    std::vector<DiffuseSphereReading> readings;
+    for (const glm::vec3& l : lights) {
+        readings.push_back(readDiffuseSphere(pictureUnder(l), kCircle, l, "d.png"));
+    }
+    // The first light leaves no shadow in sight: alone, its photograph is explained by an offset that is not there.
+    EXPECT_GT(readings[0].offset, 0.05);
+    shareOffset(readings);
+    EXPECT_NEAR(readings[0].offset, 0, 1e-4);
+    // What the curve itself, steeper near the terminator, does to a linear fit of a light near the view.
+    EXPECT_LT(degreesBetween(readings[0].shadingDirection, lights[0]), 1.2);
+    // An offset that all share moves no direction: the shadows show it, also to the light that casts none.
+    std::vector<DiffuseSphereReading> raised;
+    for (const glm::vec3& l : lights) {
+        Image picture = pictureUnder(l);
+        for (float& value : picture.values) {
+            value += 0.5f;
+        }
+        raised.push_back(readDiffuseSphere(picture, kCircle, l, "d.png"));
+    }
+    shareOffset(raised);
+    EXPECT_NEAR(raised[0].offset, 0.5, 1e-4);
+    EXPECT_LT(degreesBetween(raised[0].shadingDirection, readings[0].shadingDirection), 0.1);
+}
+
+TEST(DiffuseSphere, SaturatedPixelsAreLeftOut)
+{
+    const glm::vec3 l = glm::normalize(glm::vec3(-0.3f, 0.4f, 0.85f));
+    Image picture = spherePicture(200, 180, kCircle,
+                                  [&](const glm::vec3& n) { return glm::vec3(1.5f * std::max(0.0f, glm::dot(n, l))); });
+    std::vector<uint8_t> saturated(picture.pixelCount(), 0);
+    for (size_t i = 0; i < picture.values.size(); ++i) {
+        saturated[i / 3] |= picture.values[i] >= 1;
+        picture.values[i] = std::min(picture.values[i], 1.0f);
+    }
+    const DiffuseSphereReading reading = readDiffuseSphere(picture, kCircle, l, "d.png", {}, saturated);
+    EXPECT_NEAR(reading.radiance.x / 1.5, 1, 0.005);
+    EXPECT_LT(degreesBetween(reading.shadingDirection, l), 0.2);
+}
+
 TEST(DiffuseSphere, HighlightAndStainAreRejected)
 {
     const glm::vec3 l = glm::normalize(glm::vec3(0.4f, 0.1f, 0.9f));
