@@ -177,7 +177,7 @@ TEST(SynthCapture, TheDemosIsSmall)
 {
     SynthOptions demo = demoCapture();
     EXPECT_EQ(demo.lights, 36);
-    EXPECT_LE(demo.width * demo.height, 192 * 192);
+    EXPECT_LE(demo.width * demo.height, 320 * 320);
     EXPECT_NO_THROW(makeSynthScene(demo));
 }
 
