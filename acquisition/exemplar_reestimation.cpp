@@ -11,16 +11,15 @@ namespace nacre {
 namespace {
 
 constexpr int kMostRounds = 3;
-constexpr size_t kHoldOutEvery = 6;
 constexpr size_t kFewestKeptLights = 6;
 // A round has to lower the held-out cost to this share of the round before.
 constexpr double kLeastGain = 0.98;
-// The holds-out pattern: every sixth light, the padding left out.
+// Weights of the lights that are kept and of those held out; the padding is in neither.
 void splitLights(size_t count, std::vector<float>& kept, std::vector<float>& heldOut)
 {
     kept = heldOut = allLights(count);
     for (size_t i = 0; i < count; ++i) {
-        (i % kHoldOutEvery == kHoldOutEvery / 2 ? kept : heldOut)[i] = 0;
+        (isHeldOut(i) ? kept : heldOut)[i] = 0;
     }
 }
 

@@ -13,7 +13,6 @@ namespace nacre {
 namespace {
 
 constexpr size_t kMostPixels = 1500;
-constexpr size_t kHoldOutEvery = 6;
 constexpr size_t kFewestLights = 9;
 // Errors this close are a tie: 2 %, and what the table's own grain makes, in units of the truncation limit.
 constexpr double kTieShare = 0.02;
@@ -43,7 +42,7 @@ Split splitLights(const std::vector<Light>& lights)
 {
     Split split;
     for (size_t i = 0; i < lights.size(); ++i) {
-        (i % kHoldOutEvery == kHoldOutEvery / 2 ? split.heldOut : split.kept).push_back(i);
+        (isHeldOut(i) ? split.heldOut : split.kept).push_back(i);
     }
     for (const size_t i : split.kept) {
         split.keptLights.push_back(lights[i]);

@@ -8,6 +8,12 @@ namespace nacre {
 
 constexpr int kFineBallSize = 96; // texels across: 1.2 degrees in the middle
 
+// Every sixth light is left out where a choice is judged by the lights that it did not see.
+constexpr bool isHeldOut(size_t light)
+{
+    return light % 6 == 3;
+}
+
 // Weights 1 for every light, padded with zeros.
 std::vector<float> allLights(size_t count);
 size_t countOf(const std::vector<float>& weights);
