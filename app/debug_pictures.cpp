@@ -4,8 +4,8 @@
 
 #include <glm/geometric.hpp>
 
+#include "engine/scene/ball.h"
 #include "engine/scene/error.h"
-#include "engine/scene/reference.h"
 
 namespace nacre {
 namespace fs = std::filesystem;
@@ -55,10 +55,8 @@ void saveMaterialPictures(const fs::path& folder, const Material& material)
     saveImage(folder / "brdf.png", displayImage(brdf, automaticExposure(brdf)), PixelType::uint8);
     const Image coverage = sliceSheet(table, [&](size_t texel) { return glm::vec3(table.confidence[texel]); });
     saveImage(folder / "brdf_coverage.png", coverage, PixelType::uint8);
-    Scene scene;
-    scene.surface = transferredSurface(sphereNormalMap(kBallSize), material);
-    scene.lights = {Light{glm::normalize(glm::vec3(-0.4f, 0.5f, 0.77f)), glm::vec3(1)}};
-    const Frame ball = renderReference(scene);
+    const Light light{glm::normalize(glm::vec3(-0.4f, 0.5f, 0.77f))};
+    const Image ball = makeBall(table, std::span(&light, 1), kBallSize).radiance;
     saveImage(folder / "ball.png", displayImage(ball, automaticExposure(ball)), PixelType::uint8);
 }
 
