@@ -56,7 +56,11 @@ void saveMaterialPictures(const fs::path& folder, const Material& material)
     const Image coverage = sliceSheet(table, [&](size_t texel) { return glm::vec3(table.confidence[texel]); });
     saveImage(folder / "brdf_coverage.png", coverage, PixelType::uint8);
     const Light light{glm::normalize(glm::vec3(-0.4f, 0.5f, 0.77f))};
-    const Image ball = makeBall(table, std::span(&light, 1), kBallSize).radiance;
+    Image ball = makeBall(table, std::span(&light, 1), kBallSize).radiance;
+    const NormalMap disc = sphereNormalMap(kBallSize);
+    for (size_t i = 0; i < ball.values.size(); ++i) {
+        ball.values[i] *= disc.confidence[i / 3]; // beyond the rim a ball repeats it, for filtering
+    }
     saveImage(folder / "ball.png", displayImage(ball, automaticExposure(ball)), PixelType::uint8);
 }
 
