@@ -7,7 +7,6 @@
 #include "acquisition/lambertian_solver.h"
 #include "acquisition/triple_search.h"
 #include "engine/scene/measures.h"
-#include "engine/scene/parallel_for.h"
 
 namespace nacre {
 

@@ -7,7 +7,6 @@
 
 #include "acquisition/exemplar_model.h"
 #include "acquisition/object_exemplar.h"
-#include "engine/scene/measures.h"
 #include "engine/scene/parallel_for.h"
 
 namespace nacre {

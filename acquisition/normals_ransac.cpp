@@ -5,7 +5,6 @@
 
 #include "acquisition/lambertian_solver.h"
 #include "acquisition/triple_search.h"
-#include "engine/scene/measures.h"
 
 namespace nacre {
 

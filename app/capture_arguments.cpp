@@ -76,6 +76,12 @@ void CaptureArguments::addTo(CLI::App& command)
         .add_option("--thresholds", thresholds,
                     "LOW,HIGH radiance over irradiance that `threshold` keeps (default: each pixel's own shares)")
         ->delimiter(',');
+    command
+        .add_option(
+            "--intensities", intensities,
+            "auto corrects photographs that disagree with the rest, and estimates intensities that nobody gave; "
+            "given takes them as they are")
+        ->capture_default_str();
     command.add_option("--triples", triples, "Of lights that two-step, ransac and consensus try, at most")
         ->capture_default_str();
     command.add_option("--seed", seed, "Of the choice of triples")->capture_default_str();
@@ -119,6 +125,10 @@ AcquireOptions CaptureArguments::stageOptions() const
 {
     AcquireOptions options;
     options.normals.method = normalMethodFromName(normals);
+    if (intensities != "auto" && intensities != "given") {
+        throw Error("", fmt::format("--intensities {} is no choice", intensities), "auto or given", Error::kUsage);
+    }
+    options.correctIntensities = intensities == "auto";
     options.normals.seed = seed;
     options.normals.fitsFolder = fitsFolderFrom(fits);
     options.normals.excludedReflectances = excludedReflectances;

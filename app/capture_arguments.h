@@ -28,6 +28,7 @@ struct CalibrationArguments {
 // What `acquire` and `normals` share: a capture, and how normals are estimated.
 struct CaptureArguments : CalibrationArguments {
     std::string normals = "auto";
+    std::string intensities = "auto";
     size_t triples = 300;
     uint64_t seed = 1;
     std::filesystem::path fits;
