@@ -25,13 +25,15 @@ void parallelFor(size_t count, size_t grain, int threads, const std::function<vo
     std::atomic<size_t> next{0};
     std::mutex mutex;
     std::exception_ptr failure;
+    size_t failedChunk = chunks;
     auto work = [&] {
         for (size_t chunk = next++; chunk < chunks; chunk = next++) {
             try {
                 body(chunk * grain, std::min(count, (chunk + 1) * grain));
             } catch (...) {
                 const std::lock_guard lock(mutex);
-                if (!failure) {
+                if (chunk < failedChunk) {
+                    failedChunk = chunk;
                     failure = std::current_exception();
                 }
                 next = chunks;
