@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <chrono>
 
-#include "acquisition/albedo_factor.h"
-#include "acquisition/intensity_refinement.h"
-#include "acquisition/pixel_sample.h"
+#include "acquisition/brdf/albedo_factor.h"
+#include "acquisition/normals/intensity_refinement.h"
+#include "acquisition/normals/pixel_sample.h"
 
 namespace nacre {
 

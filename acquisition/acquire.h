@@ -3,11 +3,11 @@
 #include <string>
 #include <vector>
 
-#include "acquisition/bake.h"
-#include "acquisition/brdf_samples.h"
-#include "acquisition/capture.h"
-#include "acquisition/lights.h"
-#include "acquisition/normals.h"
+#include "acquisition/brdf/bake.h"
+#include "acquisition/brdf/brdf_samples.h"
+#include "acquisition/capture/capture.h"
+#include "acquisition/lights/lights.h"
+#include "acquisition/normals/normals.h"
 #include "engine/scene/surface.h"
 
 namespace nacre {

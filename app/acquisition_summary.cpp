@@ -7,7 +7,7 @@
 #include <glm/trigonometric.hpp>
 #include <nlohmann/json.hpp>
 
-#include "acquisition/light_files.h"
+#include "acquisition/lights/light_files.h"
 #include "engine/scene/error.h"
 #include "engine/scene/measures.h"
 

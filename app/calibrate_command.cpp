@@ -3,8 +3,8 @@
 
 #include <fmt/format.h>
 
-#include "acquisition/light_files.h"
-#include "acquisition/picture_files.h"
+#include "acquisition/capture/picture_files.h"
+#include "acquisition/lights/light_files.h"
 #include "app/acquisition_summary.h"
 #include "app/capture_arguments.h"
 #include "app/commands.h"

@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "acquisition/text_files.h"
+#include "acquisition/capture/text_files.h"
 #include "engine/scene/error.h"
 #include "engine/scene/material_specification.h"
 

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "acquisition/capture.h"
+#include "acquisition/capture/capture.h"
 #include "app/commands.h"
 #include "engine/scene/error.h"
 #include "engine/scene/image.h"

@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include "acquisition/capture.h"
+#include "acquisition/capture/capture.h"
 #include "app/acquisition_summary.h"
 #include "app/commands.h"
 #include "engine/gpu/device_info.h"

@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "acquisition/capture_window.h"
-#include "acquisition/matlab_normals.h"
+#include "acquisition/capture/capture_window.h"
+#include "acquisition/capture/matlab_normals.h"
 #include "app/acquisition_summary.h"
 #include "app/capture_arguments.h"
 #include "app/commands.h"

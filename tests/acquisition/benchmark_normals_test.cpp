@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "acquisition/acquire.h"
-#include "acquisition/matlab_normals.h"
+#include "acquisition/capture/matlab_normals.h"
 #include "engine/scene/measures.h"
 #include "tests/support/data_folder.h"
 

@@ -1,8 +1,8 @@
 // What is checked alike for every layout: counts, sizes, masks, curves, exposure times, rigs.
 #include <gtest/gtest.h>
 
-#include "acquisition/capture.h"
-#include "acquisition/light_files.h"
+#include "acquisition/capture/capture.h"
+#include "acquisition/lights/light_files.h"
 #include "tests/support/expect_error.h"
 #include "tests/support/temp_folder.h"
 #include "tests/support/write_capture.h"

@@ -1,11 +1,11 @@
 // What capture.json takes away from photographs: ambient light, an offset, photographs, pixels.
 #include <gtest/gtest.h>
 
-#include "acquisition/capture.h"
-#include "acquisition/capture_window.h"
-#include "acquisition/light_files.h"
-#include "acquisition/lights.h"
-#include "acquisition/observations.h"
+#include "acquisition/capture/capture.h"
+#include "acquisition/capture/capture_window.h"
+#include "acquisition/capture/observations.h"
+#include "acquisition/lights/light_files.h"
+#include "acquisition/lights/lights.h"
 #include "tests/support/expect_error.h"
 #include "tests/support/temp_folder.h"
 #include "tests/support/write_capture.h"

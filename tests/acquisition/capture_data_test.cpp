@@ -6,8 +6,8 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "acquisition/capture.h"
-#include "acquisition/observations.h"
+#include "acquisition/capture/capture.h"
+#include "acquisition/capture/observations.h"
 #include "tests/support/data_folder.h"
 #include "tests/support/temp_folder.h"
 

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "acquisition/capture.h"
+#include "acquisition/capture/capture.h"
 #include "tests/support/expect_error.h"
 #include "tests/support/temp_folder.h"
 #include "tests/support/write_capture.h"

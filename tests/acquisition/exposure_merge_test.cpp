@@ -1,4 +1,4 @@
-#include "acquisition/exposure_merge.h"
+#include "acquisition/capture/exposure_merge.h"
 
 #include <array>
 

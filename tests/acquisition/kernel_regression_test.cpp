@@ -3,7 +3,7 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "acquisition/bake.h"
+#include "acquisition/brdf/bake.h"
 #include "engine/scene/error.h"
 
 namespace nacre {

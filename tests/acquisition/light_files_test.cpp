@@ -1,4 +1,4 @@
-#include "acquisition/light_files.h"
+#include "acquisition/lights/light_files.h"
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>

@@ -3,8 +3,8 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "acquisition/lambertian_solver.h"
-#include "acquisition/normals.h"
+#include "acquisition/normals/lambertian_solver.h"
+#include "acquisition/normals/normals.h"
 #include "engine/scene/error.h"
 #include "engine/scene/measures.h"
 

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 
-#include "acquisition/observations.h"
+#include "acquisition/capture/observations.h"
 #include "engine/scene/error.h"
 #include "tests/support/temp_folder.h"
 #include "tests/support/write_capture.h"

@@ -1,4 +1,4 @@
-#include "acquisition/observations.h"
+#include "acquisition/capture/observations.h"
 
 #include <limits>
 

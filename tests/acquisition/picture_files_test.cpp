@@ -1,4 +1,4 @@
-#include "acquisition/picture_files.h"
+#include "acquisition/capture/picture_files.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "acquisition/progressive_pictures.h"
+#include "acquisition/capture/progressive_pictures.h"
 
 #include <gtest/gtest.h>
 

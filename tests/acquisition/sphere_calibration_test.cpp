@@ -1,8 +1,8 @@
 #include <gtest/gtest.h>
 
-#include "acquisition/diffuse_sphere.h"
-#include "acquisition/lights.h"
-#include "acquisition/mirror_sphere.h"
+#include "acquisition/lights/diffuse_sphere.h"
+#include "acquisition/lights/lights.h"
+#include "acquisition/lights/mirror_sphere.h"
 #include "engine/scene/error.h"
 #include "engine/scene/measures.h"
 #include "tests/support/sphere_picture.h"

@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "acquisition/acquire.h"
-#include "acquisition/light_files.h"
-#include "acquisition/matlab_normals.h"
+#include "acquisition/capture/matlab_normals.h"
+#include "acquisition/lights/light_files.h"
 #include "assets/synth_capture.h"
 #include "engine/scene/measures.h"
 #include "engine/scene/reference.h"

@@ -3,7 +3,7 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "acquisition/light_files.h"
+#include "acquisition/lights/light_files.h"
 #include "engine/scene/error.h"
 #include "engine/scene/measures.h"
 #include "engine/scene/surface.h"

@@ -4,7 +4,7 @@
 
 #include <glm/geometric.hpp>
 
-#include "acquisition/sphere_outline.h"
+#include "acquisition/lights/sphere_outline.h"
 #include "engine/scene/image.h"
 
 namespace nacre {

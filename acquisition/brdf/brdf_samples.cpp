@@ -1,0 +1,56 @@
+#include "acquisition/brdf/brdf_samples.h"
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include "shared/shading.h"
+
+namespace nacre {
+
+namespace {
+
+const glm::vec3 kView(0, 0, 1);
+
+// A fixed scattering of pixels over [0, 1): Fibonacci hashing (Knuth, The Art of Computer Programming 3, 6.4).
+double scattered(uint32_t pixel)
+{
+    return static_cast<double>(pixel * 2654435769u) / 4294967296.0;
+}
+
+} // namespace
+
+void gatherSamples(const Observations& block, const NormalBlock& normals, std::span<const glm::vec3> albedo,
+                   const std::vector<Light>& lights, double share, const SampleOptions& options, BrdfSamples& samples,
+                   SampleCounts& counts)
+{
+    for (size_t p = 0; p < block.pixels.size(); ++p) {
+        const PixelNormal& pixel = normals.pixels[p];
+        // A channel that is black everywhere says nothing of the others' material.
+        const bool black = !(glm::min(albedo[p].x, glm::min(albedo[p].y, albedo[p].z)) > 0);
+        if (pixel.confidence <= 0 || black) {
+            counts.withoutNormal += lights.size();
+            continue;
+        }
+        if (scattered(block.pixels[p]) >= share) {
+            counts.thinned += lights.size();
+            continue;
+        }
+        const auto radiance = block.radianceOf(p);
+        const Verdict* verdicts = &normals.verdicts[p * lights.size()];
+        for (size_t i = 0; i < lights.size(); ++i) {
+            const float nDotL = glm::dot(pixel.normal, lights[i].direction);
+            if (verdicts[i] == Verdict::saturated) {
+                ++counts.saturated;
+            } else if (nDotL < options.leastCosine || verdicts[i] == Verdict::shadow) {
+                ++counts.shadowed;
+            } else {
+                samples.unit.push_back(unitFromDirections(samples.domain, pixel.normal, lights[i].direction, kView));
+                samples.values.push_back(brdfFromRadiance(radiance[i], albedo[p] * lights[i].irradiance, nDotL));
+                samples.weights.push_back(pixel.confidence * nDotL);
+                ++counts.used;
+            }
+        }
+    }
+}
+
+} // namespace nacre

@@ -1,0 +1,37 @@
+#pragma once
+#include <memory>
+
+#include <glm/vec3.hpp>
+
+#include "acquisition/brdf/brdf_samples.h"
+
+namespace nacre {
+
+struct RegressionOptions {
+    int k = 25; // neighbours
+};
+
+struct RegressionValue {
+    glm::vec3 value{0};
+    float nearest = 0; // distance to the nearest sample, radians
+};
+
+// Interpolates scattered samples as the paper does: the k nearest neighbours in raw angles (radians), averaged with the
+// Epanechnikov kernel 3/4 (1 - u^2), u = distance / bandwidth (Wu et al., Eq. 10; Simonoff, Smoothing Methods in
+// Statistics, 1996). The bandwidth is the distance of the (k+1)-th neighbour, so that the k-th still weighs, and never
+// less than kBandwidthFloor, so that coincident samples are averaged. With fewer than k + 1 samples, all are used.
+class KernelRegression {
+public:
+    static constexpr float kBandwidthFloor = 1e-6f; // radians
+
+    // Throws Error where there is no sample.
+    KernelRegression(const BrdfSamples& samples, const RegressionOptions& options);
+    ~KernelRegression();
+    RegressionValue evaluate(const glm::vec3& unit) const;
+
+private:
+    struct Index;
+    std::unique_ptr<Index> index_;
+};
+
+} // namespace nacre

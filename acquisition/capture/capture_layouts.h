@@ -1,0 +1,41 @@
+#pragma once
+// Inside of loadCapture: what each layout reads, before picture headers are looked at.
+#include <filesystem>
+#include <optional>
+#include <vector>
+
+#include "acquisition/capture/capture.h"
+#include "acquisition/lights/light_files.h"
+
+namespace nacre {
+
+struct LayoutContents {
+    Capture capture;                          // without size, mask and curve
+    std::filesystem::path listing;            // where the photographs are listed, for messages
+    std::vector<std::filesystem::path> masks; // candidates; more than one is ambiguous
+    std::optional<TransferCurve> transfer;
+    bool exposuresGiven = false;
+    std::optional<OffsetChoice> offset;
+};
+
+// Each answers nothing where the folder has another layout, and throws Error where it has this one, but wrongly.
+std::optional<LayoutContents> readJsonLayout(const std::filesystem::path& folder);
+std::optional<LayoutContents> readDiligentLayout(const std::filesystem::path& folder);
+std::optional<LayoutContents> readUwLayout(const std::filesystem::path& folder);
+// `rig` chooses among several .lp files.
+std::optional<LayoutContents> readRtiLayout(const std::filesystem::path& folder, const std::filesystem::path& rig);
+
+// A folder of a sphere's photographs with its mask: UW names, or pictures of any names in natural order.
+SpherePhotographs readSphereFolder(const std::filesystem::path& folder);
+
+// A photograph of one file and unknown exposure.
+Photograph photographOf(const std::filesystem::path& file);
+
+// Puts lights in place of what the capture has: by the names of photographs where the file names them as the capture
+// does, otherwise in order. Throws Error where the counts differ.
+void assignLights(LayoutContents& contents, const LightFile& lights, const std::filesystem::path& file);
+
+// The checks that need picture headers alone: sizes, one transfer curve, EXIF exposure times. Fills size and curve.
+void examineHeaders(LayoutContents& contents, const std::optional<TransferCurve>& chosen);
+
+} // namespace nacre

@@ -1,0 +1,24 @@
+#pragma once
+#include <cstdint>
+#include <filesystem>
+#include <vector>
+
+#include "acquisition/capture/capture.h"
+#include "engine/scene/normal_map.h"
+
+namespace nacre {
+
+// What of the files' pixels a capture takes in, once the files' size is known: sets width and height. Throws Error,
+// naming `listing`, where the window is not inside.
+void fitWindow(Capture& capture, int fileWidth, int fileHeight, const std::filesystem::path& listing);
+
+// A mask of the files' size to the capture's; a box is inside where all of it is. Throws Error, naming `file`, where
+// nothing is left.
+std::vector<uint8_t> windowedMask(const std::vector<uint8_t>& mask, const Capture& capture,
+                                  const std::filesystem::path& file);
+
+// Normals of the files' size to the capture's: a box has the mean direction where it has normals all over, else none.
+// Throws Error, naming `file`, where the size differs from the photographs'.
+NormalMap windowedNormals(const NormalMap& normals, const Capture& capture, const std::filesystem::path& file);
+
+} // namespace nacre

@@ -1,0 +1,185 @@
+#include "acquisition/capture/photograph_files.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <string>
+
+#include <fmt/format.h>
+#include <glm/vec3.hpp>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include "acquisition/capture/progressive_pictures.h"
+#include "engine/scene/error.h"
+
+namespace nacre {
+namespace fs = std::filesystem;
+
+namespace {
+
+// For outputs, libraries and the files that threads open for a moment.
+constexpr size_t kSpareFiles = 32;
+
+FileWindow windowOf(const Capture& capture)
+{
+    FileWindow window = capture.window;
+    if (window.fileWidth == 0) {
+        window.width = window.fileWidth = capture.width;
+        window.height = window.fileHeight = capture.height;
+    }
+    return window;
+}
+
+bool isWhole(const FileWindow& window)
+{
+    return window.width == window.fileWidth && window.height == window.fileHeight && window.box == 1;
+}
+
+// Writes the picture bit by bit as it is, in a format that streams; answers the copy. The codes keep their depth: as
+// 16-bit numbers 8-bit ones would come back a rounding away.
+fs::path saveCopy(fs::path file, const Image& picture, const std::string& pixelType)
+{
+    if (pixelType == "uint8") {
+        file += ".png";
+        saveImage(file, picture, PixelType::uint8, {{"png:compressionLevel", "0"}});
+    } else {
+        file += ".tif";
+        const PixelType type = pixelType == "uint16" ? PixelType::uint16 : PixelType::float32;
+        saveImage(file, picture, type, {{"compression", "none"}});
+    }
+    return file;
+}
+
+} // namespace
+
+TemporaryFolder::TemporaryFolder()
+{
+    std::error_code error;
+    const fs::path parent = fs::temp_directory_path(error);
+    std::string name = (parent / "nacre-photographs-XXXXXX").string();
+    if (error || !mkdtemp(name.data())) {
+        throw Error(name, fmt::format("cannot be made: {}", error ? error.message() : std::strerror(errno)),
+                    "a writable folder for temporary files (TMPDIR)");
+    }
+    path_ = name;
+}
+
+TemporaryFolder::~TemporaryFolder()
+{
+    std::error_code ignored;
+    fs::remove_all(path_, ignored);
+}
+
+ExposureFile::ExposureFile(const Exposure& exposure, const Capture& capture)
+    : file_(exposure.file), source_(exposure.file), curve_(capture.curve), seconds_(exposure.seconds),
+      window_(windowOf(capture)), offset_(capture.offset)
+{
+}
+
+ImageRows& ExposureFile::open()
+{
+    rows_.emplace(source_, curve_);
+    const ImageHeader& header = rows_->header();
+    if (header.width != window_.fileWidth || header.height != window_.fileHeight) {
+        throw Error(file_, fmt::format("is {} x {} now", header.width, header.height),
+                    fmt::format("{} x {} as when the capture was loaded", window_.fileWidth, window_.fileHeight));
+    }
+    if (source_ == file_) {
+        scale_ = exposureScaleOf(header.pixelType, seconds_);
+        scale_.offset = offset_;
+    }
+    return *rows_;
+}
+
+size_t ExposureFile::keepOpen()
+{
+    const ImageRows& rows = open();
+    keptOpen_ = true;
+    const bool streams = rows.streams() && !isProgressive(source_);
+    return streams ? 0 : size_t{sizeof(float)} * window_.fileWidth * window_.fileHeight * rows.header().channels;
+}
+
+void ExposureFile::spill(const fs::path& copyWithoutExtension)
+{
+    // Undecoded, so that integers stay integers and the copy reads as the file did.
+    rows_.emplace(file_, TransferCurve::linear);
+    const std::string pixelType = rows_->header().pixelType;
+    Image picture(window_.fileWidth, window_.fileHeight, rows_->channels());
+    rows_->read(0, window_.fileHeight, picture.values);
+    rows_.reset(); // the picture that it holds
+    source_ = saveCopy(copyWithoutExtension, picture, pixelType);
+    picture = {};
+    keepOpen();
+}
+
+void ExposureFile::read(int first, int last, std::vector<glm::vec3>& rgb)
+{
+    ImageRows& rows = rows_ ? *rows_ : open();
+    const int width = window_.width / window_.box;
+    const size_t pixels = static_cast<size_t>(last - first) * width;
+    rgb.resize(pixels);
+    if (!isWhole(window_)) {
+        const int fileFirst = window_.y + first * window_.box;
+        const int fileLast = window_.y + last * window_.box;
+        values_.resize(static_cast<size_t>(fileLast - fileFirst) * window_.fileWidth * rows.channels());
+        rows.read(fileFirst, fileLast, values_);
+        gatherWindow(last - first, rows.channels(), rgb);
+        return;
+    }
+    static_assert(sizeof(glm::vec3) == 3 * sizeof(float));
+    const std::span values(&rgb[0].x, 3 * pixels);
+    if (rows.channels() == 3) {
+        rows.read(first, last, values);
+    } else {
+        rows.read(first, last, values.first(pixels));
+        for (size_t i = pixels; i-- > 0;) { // grey lies in front: spread it from the end
+            rgb[i] = glm::vec3(values[i]);
+        }
+    }
+}
+
+void ExposureFile::gatherWindow(int rows, int channels, std::vector<glm::vec3>& rgb) const
+{
+    const int box = window_.box;
+    const int width = window_.width / box;
+    const float share = 1.0f / static_cast<float>(box * box);
+    const float clipped = 1 - 0.5f / scale_.fullScale; // as in exposure_merge.cpp; minus infinity for floats
+    for (int y = 0; y < rows; ++y) {
+        for (int x = 0; x < width; ++x) {
+            glm::vec3 sum(0);
+            glm::bvec3 isClipped(false);
+            for (int step = 0; step < box * box; ++step) {
+                const size_t row = static_cast<size_t>(y) * box + step / box;
+                const float* value = &values_[(row * window_.fileWidth + window_.x + x * box + step % box) * channels];
+                for (int c = 0; c < 3; ++c) {
+                    sum[c] += value[channels == 3 ? c : 0];
+                    isClipped[c] |= scale_.isInteger() && value[channels == 3 ? c : 0] >= clipped;
+                }
+            }
+            for (int c = 0; c < 3; ++c) {
+                rgb[static_cast<size_t>(y) * width + x][c] = isClipped[c] ? 1.0f : sum[c] * share;
+            }
+        }
+    }
+}
+
+void ExposureFile::endBand()
+{
+    values_ = {};
+    if (!keptOpen_) {
+        rows_.reset();
+    }
+}
+
+size_t openFileAllowance()
+{
+    rlimit limit{};
+    getrlimit(RLIMIT_NOFILE, &limit);
+    std::error_code ignored;
+    const fs::directory_iterator openFiles("/proc/self/fd", ignored);
+    const size_t taken = std::distance(begin(openFiles), end(openFiles)) + kSpareFiles;
+    return limit.rlim_cur > taken ? limit.rlim_cur - taken : 0;
+}
+
+} // namespace nacre

@@ -1,0 +1,65 @@
+#pragma once
+#include <filesystem>
+#include <optional>
+#include <vector>
+
+#include "acquisition/capture/capture.h"
+#include "acquisition/capture/exposure_merge.h"
+
+namespace nacre {
+
+// A folder of the system's temporary place, removed with all that is in it.
+class TemporaryFolder {
+public:
+    TemporaryFolder();
+    ~TemporaryFolder();
+    TemporaryFolder(const TemporaryFolder&) = delete;
+    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+
+    const std::filesystem::path& path() const { return path_; }
+
+private:
+    std::filesystem::path path_;
+};
+
+// One exposure's file, read in bands of rows from top to bottom.
+class ExposureFile {
+public:
+    ExposureFile(const Exposure& exposure, const Capture& capture);
+
+    const std::filesystem::path& file() const { return file_; }
+    // Known once the file was opened.
+    const ExposureScale& scale() const { return scale_; }
+
+    // Opens it to stay open, so that reads go on where the last one ended; otherwise it is closed with each band, and
+    // the next one walks down from the top. Answers the bytes held in memory: the whole picture where its format cannot
+    // be streamed, else 0.
+    size_t keepOpen();
+    // Writes an uncompressed copy, which can be streamed, and keeps that open instead.
+    void spill(const std::filesystem::path& copyWithoutExtension);
+
+    // Rows [first, last) of the capture's window as 3 channels each. A box of pixels that are averaged has full scale
+    // in a channel where any of them has, so that it counts as clipped. Throws Error on unreadable files.
+    void read(int first, int last, std::vector<glm::vec3>& rgb);
+    void endBand();
+
+private:
+    ImageRows& open();
+    void gatherWindow(int rows, int channels, std::vector<glm::vec3>& rgb) const;
+
+    std::filesystem::path file_;   // the user's
+    std::filesystem::path source_; // the same, or its copy
+    TransferCurve curve_;
+    double seconds_;
+    FileWindow window_;
+    float offset_;
+    std::vector<float> values_; // rows of the file, where the window is not the whole of it
+    ExposureScale scale_;
+    std::optional<ImageRows> rows_;
+    bool keptOpen_ = false;
+};
+
+// How many files a reader may keep open beside all that the process has open already.
+size_t openFileAllowance();
+
+} // namespace nacre

@@ -1,0 +1,156 @@
+#include "acquisition/lights/lights.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <Eigen/Dense>
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
+
+#include "acquisition/capture/merged_photograph.h"
+#include "acquisition/lights/mirror_sphere.h"
+#include "engine/scene/error.h"
+#include "engine/scene/measures.h"
+#include "engine/scene/parallel_for.h"
+#include "shared/glsl.h"
+
+namespace nacre {
+
+namespace {
+
+// Beyond it, an error of 1 % in the photographs can turn the normal by more than it is long.
+constexpr double kWorstCondition = 100;
+constexpr double kLargestTurn = 2; // degrees
+
+Circle outlineOf(const SpherePhotographs& sphere)
+{
+    if (sphere.circle) {
+        return *sphere.circle;
+    }
+    const ImageHeader header = readImageHeader(sphere.maskFile);
+    const std::vector<uint8_t> mask = loadMask(sphere.maskFile, header.width, header.height);
+    return fitCircle(mask, header.width, header.height, sphere.maskFile);
+}
+
+std::vector<Light> directionsFromMirror(const Capture& capture, int threads)
+{
+    const SpherePhotographs& sphere = *capture.mirrorSphere;
+    std::vector<Light> lights(sphere.photographs.size());
+    const Circle outline = outlineOf(sphere);
+    parallelFor(lights.size(), 1, threads, [&](size_t first, size_t) {
+        const std::filesystem::path& file = sphere.photographs[first].exposures.front().file;
+        const MergedPhotograph merged = loadMerged(sphere.photographs[first], capture);
+        lights[first].direction = lightFromHighlight(findHighlight(merged.radiance, outline, file), outline);
+    });
+    return lights;
+}
+
+// One factor for all lights and channels, so that colour and unevenness stay.
+void scaleIrradiances(Rig& rig, const std::optional<glm::vec3>& reflectance)
+{
+    double sum = 0;
+    for (const Light& light : rig.lights) {
+        sum += light.irradiance.x + light.irradiance.y + light.irradiance.z;
+    }
+    const glm::vec3 factor = reflectance ? kPi / *reflectance : glm::vec3(3 * rig.lights.size() / sum);
+    for (Light& light : rig.lights) {
+        light.irradiance *= factor;
+    }
+}
+
+void addIrradiances(const Capture& capture, const CalibrationOptions& options, Rig& rig)
+{
+    const SpherePhotographs& sphere = *capture.diffuseSphere;
+    const Circle outline = outlineOf(sphere);
+    std::vector<DiffuseSphereReading> readings(rig.lights.size());
+    parallelFor(rig.lights.size(), 1, options.threads, [&](size_t i, size_t) {
+        const std::filesystem::path& file = sphere.photographs[i].exposures.front().file;
+        const MergedPhotograph merged = loadMerged(sphere.photographs[i], capture);
+        readings[i] =
+            readDiffuseSphere(merged.radiance, outline, rig.lights[i].direction, file, options.rules, merged.saturated);
+    });
+    shareOffset(readings);
+    rig.shadingOffset = readings.front().offset;
+    for (size_t i = 0; i < readings.size(); ++i) {
+        rig.shadingDisagreement.push_back(
+            static_cast<float>(degreesBetween(readings[i].shadingDirection, rig.lights[i].direction)));
+    }
+    if (!capture.irradianceGiven) {
+        for (size_t i = 0; i < readings.size(); ++i) {
+            rig.lights[i].irradiance = readings[i].radiance;
+        }
+        scaleIrradiances(rig, options.sphereReflectance);
+        rig.irradiancesFrom = sphere.source.string();
+        rig.absolute = options.sphereReflectance.has_value();
+    }
+}
+
+// How far the direction to a light at a finite distance turns from the object's middle to its edge, in degrees.
+void warnOfNearLights(const Capture& capture, Rig& rig)
+{
+    if (!capture.lightDistance || !capture.objectWidth) {
+        return;
+    }
+    const double degrees = glm::degrees(std::atan2(*capture.objectWidth / 2, *capture.lightDistance));
+    if (degrees > kLargestTurn) {
+        rig.warnings.push_back(
+            fmt::format("the lights are not distant: with a width of {:g} at a distance of {:g}, their directions turn "
+                        "by {:.1f} degrees from the object's middle to its edge ({:.0f} are harmless)",
+                        *capture.objectWidth, *capture.lightDistance, degrees, kLargestTurn));
+    }
+}
+
+void checkLights(const Capture& capture, Rig& rig)
+{
+    if (rig.lights.size() < 3) {
+        throw Error(capture.folder, fmt::format("has {} usable light(s)", rig.lights.size()),
+                    "at least three lights that do not lie in one plane");
+    }
+    rig.condition = conditionOf(rig.lights);
+    if (!(rig.condition < kWorstCondition)) {
+        throw Error(
+            capture.folder,
+            fmt::format("its lights lie in one plane with the object (condition number {:.3g})", rig.condition),
+            fmt::format("directions that span space (below {:.0f}; well-spread lights have 1 to 10)", kWorstCondition));
+    }
+}
+
+} // namespace
+
+double conditionOf(const std::vector<Light>& lights)
+{
+    Eigen::MatrixXd directions(lights.size(), 3);
+    for (size_t i = 0; i < lights.size(); ++i) {
+        const glm::vec3& d = lights[i].direction;
+        directions.row(static_cast<Eigen::Index>(i)) << d.x, d.y, d.z;
+    }
+    const Eigen::VectorXd singular = directions.jacobiSvd().singularValues();
+    const double smallest = singular.size() < 3 ? 0 : singular(2);
+    return smallest > 0 ? singular(0) / smallest : std::numeric_limits<double>::infinity();
+}
+
+Rig calibrateLights(const Capture& capture, const CalibrationOptions& options)
+{
+    Rig rig;
+    rig.irradiancesFrom = capture.irradianceGiven ? capture.lightsSource : "not known: 1 for every light";
+    if (!capture.lights.empty()) {
+        rig.lights = capture.lights;
+        rig.directionsFrom = capture.lightsSource + (capture.lightsOrder.empty() ? "" : ", " + capture.lightsOrder);
+    } else if (capture.mirrorSphere) {
+        rig.lights = directionsFromMirror(capture, options.threads);
+        rig.directionsFrom = capture.mirrorSphere->source.string();
+    } else {
+        throw Error(capture.folder, "says nothing of its lights",
+                    "light directions, a mirror sphere (--mirror-sphere DIR) or a rig (--rig FILE)");
+    }
+    if (capture.diffuseSphere) {
+        addIrradiances(capture, options, rig);
+    }
+    checkLights(capture, rig);
+    warnOfNearLights(capture, rig);
+    return rig;
+}
+
+} // namespace nacre

@@ -1,0 +1,40 @@
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "acquisition/capture/capture.h"
+#include "acquisition/lights/diffuse_sphere.h"
+
+namespace nacre {
+
+struct CalibrationOptions {
+    // Diffuse reflectance of the diffuse sphere per channel: makes the scale absolute.
+    std::optional<glm::vec3> sphereReflectance;
+    DiffuseSphereRules rules;
+    int threads = 0;
+};
+
+// What each photograph's light is, and how it is known.
+struct Rig {
+    std::vector<Light> lights; // one per photograph, the capture's order
+    std::vector<float>
+        shadingDisagreement; // degrees per light between direction and the diffuse sphere's shading; empty without one
+    float shadingOffset = 0; // constant that the diffuse sphere's photographs share, as radiance
+    std::vector<std::string> warnings; // for the user
+    std::string directionsFrom;        // for the user
+    std::string irradiancesFrom;
+    bool absolute = false; // irradiance in units of which the BRDF comes out in 1/sr
+    double condition = 0;  // of the matrix of directions: largest over smallest singular value
+};
+
+// Given lights as they are; else directions from the mirror sphere and irradiances from the diffuse one (scaled so
+// that their mean is 1, unless the reflectance is given; 1 where there is no diffuse sphere). Throws Error where
+// lights cannot be known, are fewer than three, or lie in one plane.
+Rig calibrateLights(const Capture& capture, const CalibrationOptions& options = {});
+
+// Largest over smallest singular value of the n x 3 matrix of directions: by what a small error of the photographs is
+// multiplied at worst in the normal. Infinite where the lights lie in one plane with the object.
+double conditionOf(const std::vector<Light>& lights);
+
+} // namespace nacre

@@ -1,0 +1,19 @@
+#pragma once
+#include <cstdint>
+#include <filesystem>
+#include <span>
+
+#include <glm/vec3.hpp>
+
+#include "acquisition/capture/capture.h"
+
+namespace nacre {
+
+// The circle of a sphere's mask: a geometric least-squares fit to the mask's border that forgets outliers (Tukey's
+// biweight). The picture's own frame is no border. Throws Error where the mask is no disc; `source` names it.
+Circle fitCircle(std::span<const uint8_t> mask, int width, int height, const std::filesystem::path& source);
+
+// Unit normal of the sphere at a point of the picture, camera frame; z = 0 on and beyond the outline.
+glm::vec3 sphereNormal(const Circle& circle, double x, double y);
+
+} // namespace nacre

@@ -1,0 +1,46 @@
+#include "acquisition/normals/intensities.h"
+
+#include "engine/scene/measures.h"
+
+namespace nacre {
+
+Intensities makeIntensities(size_t pixels, size_t lightCount)
+{
+    Intensities result;
+    result.lightCount = lightCount;
+    result.stride = (lightCount + 7) / 8 * 8;
+    result.values.assign(pixels * result.stride, 0.0f);
+    return result;
+}
+
+Intensities intensitiesOf(const Observations& block, const std::vector<Light>& lights)
+{
+    Intensities result = makeIntensities(block.pixels.size(), lights.size());
+    for (size_t p = 0; p < block.pixels.size(); ++p) {
+        const auto radiance = block.radianceOf(p);
+        for (size_t i = 0; i < lights.size(); ++i) {
+            result.values[p * result.stride + i] = greyOf(radiance[i] / lights[i].irradiance);
+        }
+    }
+    return result;
+}
+
+float brightLevel(std::span<const float> observed)
+{
+    thread_local std::vector<float> values;
+    values.assign(observed.begin(), observed.end());
+    return quantile(values, 0.9);
+}
+
+Intensities selectLights(const Intensities& intensities, const std::vector<size_t>& lights)
+{
+    Intensities result = makeIntensities(intensities.pixelCount(), lights.size());
+    for (size_t p = 0; p < intensities.pixelCount(); ++p) {
+        for (size_t i = 0; i < lights.size(); ++i) {
+            result.values[p * result.stride + i] = intensities.ofPixel(p)[lights[i]];
+        }
+    }
+    return result;
+}
+
+} // namespace nacre

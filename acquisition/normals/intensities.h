@@ -1,0 +1,40 @@
+#pragma once
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+#include "acquisition/capture/observations.h"
+#include "engine/scene/light.h"
+
+namespace nacre {
+
+// Grey of linear Rec. 601 weights, as DiLiGenT's published figures use it.
+inline float greyOf(const glm::vec3& rgb)
+{
+    return 0.2989f * rgb.x + 0.5870f * rgb.y + 0.1140f * rgb.z;
+}
+
+// Grey radiance over irradiance per pixel and light: what a light of irradiance 1 would show. Rows are padded with
+// zeros to a multiple of eight.
+struct Intensities {
+    size_t lightCount = 0;
+    size_t stride = 0;
+    std::vector<float> values;
+
+    size_t pixelCount() const { return stride ? values.size() / stride : 0; }
+    std::span<const float> ofPixel(size_t p) const { return {&values[p * stride], lightCount}; }
+    const float* padded(size_t p) const { return &values[p * stride]; }
+};
+
+Intensities makeIntensities(size_t pixels, size_t lightCount);
+Intensities intensitiesOf(const Observations& block, const std::vector<Light>& lights);
+
+// The 90th percentile of a pixel's observations: its own scale, which a few highlights do not move.
+float brightLevel(std::span<const float> observed);
+
+// The columns of the lights that are named, for leaving others out.
+Intensities selectLights(const Intensities& intensities, const std::vector<size_t>& lights);
+
+} // namespace nacre

@@ -1,0 +1,186 @@
+#include "acquisition/normals/intensity_refinement.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <glm/common.hpp>
+#include <glm/exponential.hpp>
+#include <glm/geometric.hpp>
+
+#include "engine/scene/measures.h"
+
+namespace nacre {
+
+namespace {
+
+constexpr int kMostIterations = 60;
+// Steps in log ratio are lengthened: alternation alone creeps where few lights share few normals.
+constexpr float kOverRelaxation = 1.5f;
+// Ratios that move by less than this are at rest.
+constexpr float kRest = 0.002f;
+// Medians over thousands of pixels do not need each pixel's best triple.
+constexpr size_t kTriples = 100;
+// Pixels that a light grazes say little of its strength.
+constexpr float kLeastCosine = 0.3f;
+constexpr size_t kFewestPixels = 20;
+// With fewer lights a pixel's normal follows whatever a photograph claims.
+constexpr size_t kFewestLights = 6;
+// A photograph disagrees when its log ratio is beyond this and beyond so many of the photographs' own spreads: what is
+// not Lambert makes ratios scatter, too.
+constexpr float kLeastDeviation = 0.095f; // 10 %
+constexpr float kDeviationSigmas = 5;
+
+// Observation over prediction per channel: the prediction is the pixel's own albedo in the channel times n.l.
+struct ChannelRatios {
+    std::vector<float> values[3];
+};
+
+std::vector<ChannelRatios> gatherRatios(const Observations& sample, const NormalBlock& normals,
+                                        const std::vector<Light>& lights)
+{
+    std::vector<ChannelRatios> ratios(lights.size());
+    for (size_t p = 0; p < sample.pixels.size(); ++p) {
+        const PixelNormal& pixel = normals.pixels[p];
+        const Verdict* verdicts = &normals.verdicts[p * lights.size()];
+        const auto radiance = sample.radianceOf(p);
+        glm::vec3 sum(0);
+        float squares = 0;
+        for (size_t i = 0; i < lights.size(); ++i) {
+            const float nDotL = glm::dot(pixel.normal, lights[i].direction);
+            if (verdicts[i] == Verdict::used && nDotL > 0) {
+                sum += nDotL * radiance[i] / lights[i].irradiance;
+                squares += nDotL * nDotL;
+            }
+        }
+        for (size_t i = 0; i < lights.size(); ++i) {
+            const float nDotL = glm::dot(pixel.normal, lights[i].direction);
+            if (squares > 0 && nDotL >= kLeastCosine && verdicts[i] != Verdict::shadow) {
+                const glm::vec3 ratio = radiance[i] / lights[i].irradiance * squares / (sum * nDotL);
+                for (int c = 0; c < 3; ++c) {
+                    if (std::isfinite(ratio[c])) {
+                        ratios[i].values[c].push_back(ratio[c]);
+                    }
+                }
+            }
+        }
+    }
+    return ratios;
+}
+
+// One factor for all lights is not known: the median light keeps its irradiance.
+void fixScale(std::vector<glm::vec3>& ratios)
+{
+    for (int c = 0; c < 3; ++c) {
+        std::vector<float> values;
+        for (const glm::vec3& ratio : ratios) {
+            values.push_back(ratio[c]);
+        }
+        const float median = quantile(values, 0.5);
+        for (glm::vec3& ratio : ratios) {
+            ratio[c] /= median;
+        }
+    }
+}
+
+float leastGrey(const std::vector<glm::vec3>& ratios)
+{
+    float least = greyOf(ratios.front());
+    for (const glm::vec3& ratio : ratios) {
+        least = std::min(least, greyOf(ratio));
+    }
+    return least;
+}
+
+float largestGrey(const std::vector<glm::vec3>& ratios)
+{
+    float largest = greyOf(ratios.front());
+    for (const glm::vec3& ratio : ratios) {
+        largest = std::max(largest, greyOf(ratio));
+    }
+    return largest;
+}
+
+float spreadOf(const std::vector<glm::vec3>& ratios)
+{
+    std::vector<float> deviations;
+    for (const glm::vec3& ratio : ratios) {
+        deviations.push_back(std::abs(std::log(greyOf(ratio))));
+    }
+    return 1.4826f * quantile(deviations, 0.5);
+}
+
+} // namespace
+
+std::vector<std::string> correctIntensities(const Observations& sample, const std::vector<std::string>& names,
+                                            bool known, const NormalOptions& options, std::vector<Light>& lights)
+{
+    std::vector<std::string> remarks;
+    if (lights.size() < kFewestLights || sample.pixels.size() < kFewestPixels) {
+        return remarks;
+    }
+    const PhotographRatios found = estimateIntensityRatios(sample, lights, options);
+    if (!known) {
+        remarks.push_back(
+            fmt::format("intensities estimated from the photographs themselves in {} steps: {:.2f} to {:.2f}",
+                        found.iterations, leastGrey(found.ratios), largestGrey(found.ratios)));
+    }
+    const float limit = std::max(kLeastDeviation, kDeviationSigmas * found.spread);
+    std::vector<glm::vec3> corrected;
+    std::string corrections;
+    for (size_t i = 0; i < lights.size(); ++i) {
+        const bool disagrees = std::abs(std::log(greyOf(found.ratios[i]))) > limit;
+        if (!known || disagrees) {
+            lights[i].irradiance *= found.ratios[i];
+        }
+        if (known && disagrees) {
+            corrected.push_back(found.ratios[i]);
+            corrections += (corrections.empty() ? "" : ", ") + names[i];
+        }
+    }
+    if (!corrected.empty()) {
+        remarks.push_back(fmt::format(
+            "{} photograph(s) are {:.2f} to {:.2f} times as bright as the others predict; their intensities "
+            "were corrected: {}",
+            corrected.size(), leastGrey(corrected), largestGrey(corrected), corrections));
+    }
+    return remarks;
+}
+
+PhotographRatios estimateIntensityRatios(const Observations& sample, const std::vector<Light>& lights,
+                                         const NormalOptions& options)
+{
+    PhotographRatios result;
+    result.ratios.assign(lights.size(), glm::vec3(1));
+    std::vector<Light> current = lights;
+    NormalOptions quick = options;
+    quick.triples = std::min(options.triples, kTriples);
+    const NormalEstimator consensus = makeConsensusEstimator(lights, quick); // knows directions alone
+    for (; result.iterations < kMostIterations; ++result.iterations) {
+        const NormalBlock normals = consensus(intensitiesOf(sample, current));
+        std::vector<ChannelRatios> gathered = gatherRatios(sample, normals, current);
+        std::vector<glm::vec3> next = result.ratios;
+        for (size_t i = 0; i < lights.size(); ++i) {
+            for (int c = 0; c < 3; ++c) {
+                std::vector<float>& values = gathered[i].values[c];
+                const float ratio = values.size() < kFewestPixels ? 1.0f : quantile(values, 0.5);
+                next[i][c] *= ratio > 0 ? std::pow(ratio, kOverRelaxation) : 1.0f;
+            }
+        }
+        fixScale(next);
+        float change = 0;
+        for (size_t i = 0; i < lights.size(); ++i) {
+            const glm::vec3 step = glm::abs(glm::log(next[i] / result.ratios[i]));
+            change = std::max({change, step.x, step.y, step.z});
+            current[i].irradiance = lights[i].irradiance * next[i];
+        }
+        result.ratios = next;
+        if (change < kRest) {
+            break;
+        }
+    }
+    result.spread = spreadOf(result.ratios);
+    return result;
+}
+
+} // namespace nacre

@@ -1,0 +1,28 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "acquisition/capture/observations.h"
+#include "acquisition/normals/normals.h"
+
+namespace nacre {
+
+// How each photograph stands to the others: the median over its lit pixels of observation to prediction, per channel.
+struct PhotographRatios {
+    std::vector<glm::vec3> ratios; // per light; 1 = as predicted. Their median over the lights is 1 in each channel
+    float spread = 0;              // robust standard deviation of their logarithms
+    int iterations = 0;
+};
+
+// Normals by consensus on the sample, ratios of observation to Lambertian prediction, irradiances times the ratios, and
+// again until they rest (semi-calibrated photometric stereo: Cho, Matsushita, Tai and Kweon, Photometric Stereo Under
+// Non-uniform Light Intensities and Exposures, 2016, with medians). `lights` stay as they are; the ratios tell.
+PhotographRatios estimateIntensityRatios(const Observations& sample, const std::vector<Light>& lights,
+                                         const NormalOptions& options);
+
+// Multiplies irradiances by the ratios: of every light where irradiances are not `known`, else of the photographs that
+// disagree with the rest. Answers a remark for each, by the photographs' names.
+std::vector<std::string> correctIntensities(const Observations& sample, const std::vector<std::string>& names,
+                                            bool known, const NormalOptions& options, std::vector<Light>& lights);
+
+} // namespace nacre

@@ -1,0 +1,69 @@
+#pragma once
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "acquisition/normals/intensities.h"
+#include "acquisition/normals/verdicts.h"
+
+namespace nacre {
+
+enum class NormalMethod { automatic, leastSquares, threshold, twoStep, ransac, consensus, exemplar };
+
+// "auto", "least-squares", "threshold", "two-step", "ransac", "consensus", "exemplar"; a usage Error lists the names.
+NormalMethod normalMethodFromName(const std::string& name);
+std::string nameOf(NormalMethod method);
+std::string normalMethodNames();
+
+struct NormalOptions {
+    NormalMethod method = NormalMethod::automatic;
+    // threshold: observations outside are dropped. In radiance over irradiance, grey, if both are set (0 <= low <
+    // high); otherwise the darkest and brightest shares of each pixel's own observations.
+    float lowThreshold = -1;
+    float highThreshold = -1;
+    float darkestShare = 0.2f;
+    float brightestShare = 0.25f;
+    // two-step, ransac, consensus: at most so many triples of lights.
+    size_t triples = 300;
+    uint64_t seed = 1;
+    // exemplar: published fits that are added to the built-in reflectances (empty: none), and names to leave out.
+    std::filesystem::path fitsFolder;
+    std::vector<std::string> excludedReflectances;
+    int threads = 0;
+};
+
+// What photometric stereo says of one pixel.
+struct PixelNormal {
+    glm::vec3 normal{0};  // unit, camera frame; 0 where there is none
+    float albedo = 0;     // rho of I / E = rho n.l (Lambertian methods), the exemplar's scale otherwise; grey
+    float confidence = 0; // [0,1]; 0 = no data
+    uint16_t used = 0;    // observations that the estimate rests on
+};
+
+struct NormalBlock {
+    std::vector<PixelNormal> pixels;
+    std::vector<Verdict> verdicts; // [pixel * lights + light]
+};
+
+// Answers a block of pixels. Made once per capture: what depends on the lights alone is in it.
+using NormalEstimator = std::function<NormalBlock(const Intensities&)>;
+
+NormalEstimator makeLeastSquaresEstimator(const std::vector<Light>& lights, const NormalOptions& options);
+NormalEstimator makeThresholdEstimator(const std::vector<Light>& lights, const NormalOptions& options);
+NormalEstimator makeTwoStepEstimator(const std::vector<Light>& lights, const NormalOptions& options);
+NormalEstimator makeRansacEstimator(const std::vector<Light>& lights, const NormalOptions& options);
+NormalEstimator makeConsensusEstimator(const std::vector<Light>& lights, const NormalOptions& options);
+
+// What a method that looks at the whole object found out, for the user.
+struct NormalReport {
+    NormalMethod method = NormalMethod::automatic; // the one that was taken
+    std::vector<std::string> remarks;              // a line each
+};
+
+// `sample`: pixels from all over the object, for methods that choose by it (auto, exemplar). auto is decided here.
+NormalEstimator makeNormalEstimator(const Intensities& sample, const std::vector<Light>& lights,
+                                    const NormalOptions& options, NormalReport& report);
+
+} // namespace nacre

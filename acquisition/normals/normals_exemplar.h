@@ -1,0 +1,12 @@
+#pragma once
+#include "acquisition/normals/normals.h"
+
+namespace nacre {
+
+// Photometric stereo by virtual exemplars: after Hertzmann and Seitz, Shape and Materials by Example, 2003, and Hui and
+// Sankaranarayanan, Shape and Spatially-Varying Reflectance Estimation from Virtual Exemplars, 2017, with a residual
+// that forgets cast shadows and a start from the triple consensus. `sample`: pixels from all over the object.
+NormalEstimator makeExemplarEstimator(const Intensities& sample, const std::vector<Light>& lights,
+                                      const NormalOptions& options, std::vector<std::string>& remarks);
+
+} // namespace nacre

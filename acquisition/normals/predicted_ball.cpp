@@ -1,0 +1,68 @@
+#include "acquisition/normals/predicted_ball.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <glm/geometric.hpp>
+
+#include "engine/scene/parallel_for.h"
+
+namespace nacre {
+
+namespace {
+
+// The outermost texels look along the surface, where nothing is measured.
+constexpr float kRim = 0.9975f; // radius on the disc
+
+glm::vec2 discOf(int x, int y, int size)
+{
+    return {2 * (x + 0.5f) / size - 1, 1 - 2 * (y + 0.5f) / size};
+}
+
+} // namespace
+
+int PredictedBall::rowOf(const glm::vec3& normal) const
+{
+    glm::vec2 disc(normal.x, normal.y);
+    const float limit = kRim - 1.5f / size; // so that the texel's centre is inside
+    if (glm::length(disc) > limit) {
+        disc *= limit / glm::length(disc);
+    }
+    const int x = std::clamp(static_cast<int>((disc.x + 1) / 2 * size), 0, size - 1);
+    const int y = std::clamp(static_cast<int>((1 - disc.y) / 2 * size), 0, size - 1);
+    return rows[static_cast<size_t>(y) * size + x];
+}
+
+PredictedBall makePredictedBall(int size, const std::vector<glm::vec3>& directions, const GreyReflectance& reflectance,
+                                int threads)
+{
+    PredictedBall ball;
+    ball.size = size;
+    ball.lightCount = directions.size();
+    ball.stride = (directions.size() + 7) / 8 * 8;
+    ball.rows.assign(static_cast<size_t>(size) * size, -1);
+    for (int y = 0; y < size; ++y) {
+        for (int x = 0; x < size; ++x) {
+            const glm::vec2 disc = discOf(x, y, size);
+            if (glm::length(disc) < kRim) {
+                ball.rows[static_cast<size_t>(y) * size + x] = static_cast<int>(ball.normals.size());
+                ball.normals.emplace_back(disc, std::sqrt(1 - glm::dot(disc, disc)));
+            }
+        }
+    }
+    ball.columns.assign(ball.normals.size() * ball.stride, 0.0f);
+    parallelFor(ball.normals.size(), 64, threads, [&](size_t first, size_t last) {
+        for (size_t row = first; row < last; ++row) {
+            for (size_t i = 0; i < directions.size(); ++i) {
+                const float nDotL = glm::dot(ball.normals[row], directions[i]);
+                const float value = nDotL > 0 ? reflectance(ball.normals[row], directions[i]) * nDotL : 0.0f;
+                ball.columns[row * ball.stride + i] = std::isfinite(value) ? std::max(value, 0.0f) : 0.0f;
+            }
+        }
+    });
+    ball.roots.resize(ball.columns.size());
+    std::transform(ball.columns.begin(), ball.columns.end(), ball.roots.begin(), [](float v) { return std::sqrt(v); });
+    return ball;
+}
+
+} // namespace nacre
