@@ -7,6 +7,8 @@
 #include "app/capture_arguments.h"
 #include "app/commands.h"
 #include "app/debug_pictures.h"
+#include "app/destinations.h"
+#include "app/interpolation_arguments.h"
 #include "app/progress_line.h"
 #include "app/verdict_pictures.h"
 #include "engine/scene/error.h"
@@ -21,13 +23,13 @@ struct AcquireArguments {
     std::filesystem::path output;
     std::string coordinates = "half-difference";
     std::vector<int> tableSize;
-    int k = 25;
+    InterpolationArguments interpolation;
 };
 
 AcquireOptions optionsOf(const AcquireArguments& arguments)
 {
     AcquireOptions options = arguments.common.stageOptions();
-    options.regression.k = arguments.k;
+    options.interpolation = arguments.interpolation.options(options.interpolation.threads);
     if (arguments.coordinates != "half-difference" && arguments.coordinates != "natural") {
         throw Error("", fmt::format("--coordinates {} are not known", arguments.coordinates),
                     "half-difference or natural", Error::kUsage);
@@ -52,10 +54,9 @@ void checkOutputs(const AcquireArguments& arguments)
     if (arguments.output.extension() != ".nacre") {
         throw Error(arguments.output, "is no name for a surface", "-o NAME.nacre", Error::kUsage);
     }
-    WholeOutput(arguments.output, arguments.common.force);
-    if (!arguments.common.json.empty()) {
-        WholeOutput(arguments.common.json, true);
-    }
+    requireDestination(arguments.output, arguments.common.force);
+    requireSummaryDestination(arguments.common.json);
+    requireFolderDestination(arguments.common.debugFolder);
 }
 
 void runAcquire(AcquireArguments& arguments)
@@ -70,21 +71,22 @@ void runAcquire(AcquireArguments& arguments)
     const Acquisition result = acquire(capture, options, progressLine(common.quiet));
     endProgressLine(common.quiet);
     saveSurface(arguments.output, result.surface, common.force);
+    const Capture given = selectPhotographs(capture, result.estimate.given);
     if (!common.quiet) {
-        fmt::print("{}{}{}{}wrote        {}\n", describe(capture, result.estimate.rig),
-                   describeNormals(capture, result.estimate), describeBrdf(result), describe(result.estimate.times),
-                   arguments.output.string());
+        fmt::print("{}{}{}{}{}wrote        {}\n", describeGiven(capture, result.estimate),
+                   describe(given, result.estimate.rig), describeNormals(given, result.estimate), describeBrdf(result),
+                   describe(result.estimate.times), arguments.output.string());
     }
     if (!common.compareRig.empty() && !common.quiet) {
-        fmt::print("{}", describeDisagreement(capture, result.estimate.rig, common.compareRig));
+        fmt::print("{}", describeDisagreement(capture, result.estimate.given, result.estimate.rig, common.compareRig));
     }
     if (!common.json.empty()) {
-        writeTextFile(common.json, summaryOf(capture, result).dump(2) + "\n");
+        writeTextFile(common.json, summaryOf(given, result).dump(2) + "\n");
     }
     if (!common.debugFolder.empty()) {
         makeDebugFolder(common.debugFolder);
         saveNormalPictures(common.debugFolder, result.surface.normals);
-        saveVerdictPictures(common.debugFolder, capture, result.estimate);
+        saveVerdictPictures(common.debugFolder, given, result.estimate);
         saveMaterialPictures(common.debugFolder, result.surface.materials.front());
     }
 }
@@ -98,7 +100,7 @@ void addAcquireCommand(CLI::App& app)
         app.add_subcommand("acquire", "Photographs under a moving light to normals and a measured BRDF");
     arguments->common.addTo(*command);
     command->add_option("-o,--output", arguments->output, "The surface to write, NAME.nacre")->required();
-    command->add_option("--k", arguments->k, "Nearest samples that are averaged")->capture_default_str();
+    arguments->interpolation.addTo(*command);
     command->add_option("--coordinates", arguments->coordinates, "Of the table: half-difference or natural")
         ->capture_default_str();
     command->add_option("--table-size", arguments->tableSize, "X,Y,Z texels (default: from the captured range)")

@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include <fmt/format.h>
 #include <glm/trigonometric.hpp>
 #include <nlohmann/json.hpp>
 
+#include "acquisition/capture/capture_layouts.h"
 #include "acquisition/lights/light_files.h"
 #include "engine/scene/error.h"
 #include "engine/scene/measures.h"
@@ -98,18 +100,36 @@ std::string describe(const Capture& capture, const Rig& rig)
     return text;
 }
 
-std::string describeDisagreement(const Capture& capture, const Rig& rig, const std::filesystem::path& otherLights)
+std::string describeGiven(const Capture& capture, const NormalEstimate& estimate)
+{
+    const size_t given = estimate.given.size() + estimate.leftOut.size();
+    return given == capture.photographs.size()
+               ? ""
+               : fmt::format("given        {} of {} photographs, the best spread ones from {} on\n", given,
+                             capture.photographs.size(), capture.photographs[estimate.given.front()].name);
+}
+
+std::string describeDisagreement(const Capture& capture, const std::vector<size_t>& given, const Rig& rig,
+                                 const std::filesystem::path& otherLights)
 {
     const LightFile other = loadLightFile(otherLights);
-    if (other.lights.size() != rig.lights.size()) {
+    std::vector<size_t> order = lightsByName(other, capture.photographs, otherLights);
+    const bool named = !order.empty();
+    if (!named && other.lights.size() != capture.photographs.size()) {
         throw Error(otherLights, fmt::format("has {} lights", other.lights.size()),
-                    fmt::format("one for each of the {} photographs", rig.lights.size()));
+                    fmt::format("one for each of the {} photographs", capture.photographs.size()));
     }
-    std::string text = fmt::format("\ndirections against {}\n", otherLights.string());
+    if (!named) {
+        order.resize(other.lights.size());
+        std::iota(order.begin(), order.end(), size_t{0});
+    }
+    std::string text = fmt::format("\ndirections against {}, matched to the photographs by {}\n", otherLights.string(),
+                                   named ? "name" : "order");
     std::vector<float> degrees;
     for (size_t i = 0; i < rig.lights.size(); ++i) {
-        degrees.push_back(static_cast<float>(degreesBetween(rig.lights[i].direction, other.lights[i].direction)));
-        text += fmt::format("{:>24} {:7.2f} degrees\n", capture.photographs[i].name, degrees.back());
+        const Light& light = other.lights[order[given[i]]];
+        degrees.push_back(static_cast<float>(degreesBetween(rig.lights[i].direction, light.direction)));
+        text += fmt::format("{:>24} {:7.2f} degrees\n", capture.photographs[given[i]].name, degrees.back());
     }
     return text + fmt::format("{:.2f} degrees in the mean, {:.2f} at most\n", meanOf(degrees),
                               *std::max_element(degrees.begin(), degrees.end()));
@@ -131,6 +151,13 @@ std::string describeNormals(const Capture& capture, const NormalEstimate& estima
                                    estimate.pixelsWithoutNormal);
     for (const std::string& remark : estimate.report.remarks) {
         text += fmt::format("             {}\n", remark);
+    }
+    if (estimate.pixelsSmoothed > 0) {
+        text += fmt::format("smoothed in  {} pixels that the capture marks\n", estimate.pixelsSmoothed);
+    }
+    if (std::isfinite(estimate.report.lambertianResidual)) {
+        text += fmt::format("residual     {:.2f} % of the mean: Lambert's law on lit pixels, root mean square\n",
+                            100 * estimate.report.lambertianResidual);
     }
     VerdictCounts sum;
     for (const VerdictCounts& counts : estimate.verdicts) {
@@ -189,6 +216,10 @@ Json summaryOf(const Capture& capture, const NormalEstimate& estimate)
                  {"normals", nameOf(estimate.report.method)},
                  {"remarks", estimate.report.remarks},
                  {"pixelsWithoutNormal", estimate.pixelsWithoutNormal},
+                 {"pixelsSmoothed", estimate.pixelsSmoothed},
+                 {"lambertianResidual", estimate.report.lambertianResidual}, // null where nothing is lit
+                 {"photographsLeftOut", estimate.leftOut},
+                 {"photographsGiven", estimate.given.size()},
                  {"lights", Json::array()},
                  {"seconds", Json::object()}};
     for (size_t i = 0; i < rig.lights.size(); ++i) {

@@ -11,12 +11,16 @@ namespace nacre {
 // disagreement with the diffuse sphere's shading.
 std::string describe(const Capture& capture);
 std::string describe(const Capture& capture, const Rig& rig);
+// How many photographs were given to an estimate, where that was not all of them.
+std::string describeGiven(const Capture& capture, const NormalEstimate& estimate);
 std::string describe(const std::vector<StageTime>& times);
 // Method, what it remarked, and how the observations were judged.
 std::string describeNormals(const Capture& capture, const NormalEstimate& estimate);
 
-// Degrees between the rig's directions and those of another file of lights, in the photographs' order.
-std::string describeDisagreement(const Capture& capture, const Rig& rig, const std::filesystem::path& otherLights);
+// Degrees between the rig's directions and those of another file of lights, by the photographs' names, by their order
+// where the file names none of them. The rig has the lights of the capture's photographs `given`.
+std::string describeDisagreement(const Capture& capture, const std::vector<size_t>& given, const Rig& rig,
+                                 const std::filesystem::path& otherLights);
 
 std::string describeBrdf(const Acquisition& acquisition);
 // Size, coordinates and measured share of a table, as the end of a sentence.

@@ -5,11 +5,12 @@
 
 #include "acquisition/capture/picture_files.h"
 #include "acquisition/lights/light_files.h"
+#include "acquisition/lights/well_spread_lights.h"
 #include "app/acquisition_summary.h"
 #include "app/capture_arguments.h"
 #include "app/commands.h"
+#include "app/destinations.h"
 #include "engine/scene/error.h"
-#include "engine/scene/whole_file.h"
 
 namespace nacre {
 
@@ -31,7 +32,7 @@ void checkOutput(const std::filesystem::path& output, bool force)
         throw Error(output, "names no file of lights", "NAME.json (directions and irradiances) or NAME.lp (directions)",
                     Error::kUsage);
     }
-    WholeOutput(output, force); // refuses now what it would refuse after the work
+    requireDestination(output, force);
 }
 
 LightFile lightFileOf(const Capture& capture, const Rig& rig)
@@ -73,7 +74,7 @@ void runCalibrate(CalibrateArguments& arguments)
     }
     fmt::print("{}{}", describe(capture), describe(capture, rig));
     if (!common.compareRig.empty()) {
-        fmt::print("{}", describeDisagreement(capture, rig, common.compareRig));
+        fmt::print("{}", describeDisagreement(capture, chosenLights(rig.lights, {}), rig, common.compareRig));
     }
     fmt::print("{}", describeOutput(arguments.output, lights));
 }

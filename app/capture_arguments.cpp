@@ -38,6 +38,15 @@ OffsetChoice offsetChoiceOf(const std::string& text)
     return {false, static_cast<float>(*value)};
 }
 
+LightChoice lightChoiceOf(const std::optional<int>& given)
+{
+    if (given && *given < kFewestLightsGiven) {
+        throw Error("", fmt::format("--lights-given {} is not possible", *given),
+                    fmt::format("{} or more lights", kFewestLightsGiven), Error::kUsage);
+    }
+    return {given ? static_cast<size_t>(*given) : 0, 0};
+}
+
 } // namespace
 
 void CalibrationArguments::addTo(CLI::App& command)
@@ -77,6 +86,11 @@ void CaptureArguments::addTo(CLI::App& command)
                     "LOW,HIGH radiance over irradiance that `threshold` keeps (default: each pixel's own shares)")
         ->delimiter(',');
     command
+        .add_option("--lights-given", lightsGiven,
+                    "Read only so many photographs, 3 or more, whose lights spread best, from the first on (default: "
+                    "all)")
+        ->option_text("K");
+    command
         .add_option(
             "--intensities", intensities,
             "auto corrects photographs that disagree with the rest, and estimates intensities that nobody gave; "
@@ -90,6 +104,9 @@ void CaptureArguments::addTo(CLI::App& command)
         "Folder of published fits that exemplars use beside the built-in ones [environment variable NACRE_FITS_DIR]");
     command.add_option("--exclude-reflectance", excludedReflectances, "NAME[,NAME] of published fits to leave out")
         ->delimiter(',');
+    command.add_option(
+        "--smooth", capture.smooth,
+        "Picture that is white where normals are to be smoothed in from their neighbours, not estimated");
     command.add_option("--json", json, "Write the summary to this file too");
     command.add_option("--debug-dir", debugFolder, "Write every stage's result as a picture");
 }
@@ -129,6 +146,11 @@ AcquireOptions CaptureArguments::stageOptions() const
         throw Error("", fmt::format("--intensities {} is no choice", intensities), "auto or given", Error::kUsage);
     }
     options.correctIntensities = intensities == "auto";
+    options.lights = lightChoiceOf(lightsGiven);
+    if (lightsGiven && !compareRig.empty()) {
+        throw Error("", "--compare-rig is not possible with --lights-given", "one of them: a rig has every light",
+                    Error::kUsage);
+    }
     options.normals.seed = seed;
     options.normals.fitsFolder = fitsFolderFrom(fits);
     options.normals.excludedReflectances = excludedReflectances;

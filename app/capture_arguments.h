@@ -1,5 +1,6 @@
 #pragma once
 #include <filesystem>
+#include <optional>
 #include <string>
 
 #include <CLI/CLI.hpp>
@@ -29,6 +30,7 @@ struct CalibrationArguments {
 struct CaptureArguments : CalibrationArguments {
     std::string normals = "auto";
     std::string intensities = "auto";
+    std::optional<int> lightsGiven; // empty: all
     size_t triples = 300;
     uint64_t seed = 1;
     std::filesystem::path fits;

@@ -10,7 +10,10 @@ void addSynthCommand(CLI::App& app);
 void addAcquireCommand(CLI::App& app);
 void addNormalsCommand(CLI::App& app);
 void addCalibrateCommand(CLI::App& app);
+void addBrdfCommand(CLI::App& app);
 void addCompareCommand(CLI::App& app);
+void addStressCommand(CLI::App& app);
+void addEvaluateCommand(CLI::App& app);
 void addDemoCommand(CLI::App& app);
 
 } // namespace nacre

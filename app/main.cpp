@@ -43,7 +43,10 @@ int runCommandLine(int argc, char** argv)
     nacre::addRenderCommand(app);
     nacre::addSynthCommand(app);
     nacre::addInfoCommand(app);
+    nacre::addBrdfCommand(app);
     nacre::addCompareCommand(app);
+    nacre::addEvaluateCommand(app);
+    nacre::addStressCommand(app);
     nacre::addDemoCommand(app);
     try {
         app.parse(argc, argv);

@@ -5,10 +5,12 @@
 
 #include "acquisition/capture/capture_window.h"
 #include "acquisition/capture/matlab_normals.h"
+#include "acquisition/lights/sphere_outline.h"
 #include "app/acquisition_summary.h"
 #include "app/capture_arguments.h"
 #include "app/commands.h"
 #include "app/debug_pictures.h"
+#include "app/destinations.h"
 #include "app/progress_line.h"
 #include "app/verdict_pictures.h"
 #include "engine/scene/error.h"
@@ -19,6 +21,9 @@ namespace nacre {
 
 namespace {
 
+// In place of a file: the geometry of a sphere whose outline is the capture's mask.
+constexpr const char* kSphere = "sphere";
+
 struct NormalsArguments {
     CaptureArguments common;
     std::filesystem::path output;
@@ -27,7 +32,10 @@ struct NormalsArguments {
 
 AngularError compareWithTruth(const Capture& capture, const NormalMap& normals, const std::filesystem::path& file)
 {
-    const NormalMap truth = windowedNormals(loadTrueNormals(file), capture, file);
+    const NormalMap truth = file == kSphere
+                                ? sphereNormals(fitCircle(capture.mask, capture.width, capture.height, capture.folder),
+                                                capture.width, capture.height)
+                                : windowedNormals(loadTrueNormals(file), capture, file);
     return angularError(normals, truth, capture.mask);
 }
 
@@ -39,10 +47,9 @@ void checkOutputs(const NormalsArguments& arguments)
         throw Error(arguments.output, "is no normal map that normals writes", ".exr (float) or .png (16-bit)",
                     Error::kUsage);
     }
-    WholeOutput(arguments.output, arguments.common.force);
-    if (!arguments.common.json.empty()) {
-        WholeOutput(arguments.common.json, true);
-    }
+    requireDestination(arguments.output, arguments.common.force);
+    requireSummaryDestination(arguments.common.json);
+    requireFolderDestination(arguments.common.debugFolder);
 }
 
 void runNormals(NormalsArguments& arguments)
@@ -54,13 +61,14 @@ void runNormals(NormalsArguments& arguments)
     const NormalEstimate result = estimateCaptureNormals(capture, options, progressLine(common.quiet));
     endProgressLine(common.quiet);
     saveNormalMap(arguments.output, result.normals);
-    nlohmann::json summary = summaryOf(capture, result);
+    const Capture given = selectPhotographs(capture, result.given);
+    nlohmann::json summary = summaryOf(given, result);
     if (!common.quiet) {
-        fmt::print("{}{}{}{}", describe(capture), describe(capture, result.rig), describeNormals(capture, result),
-                   describe(result.times));
+        fmt::print("{}{}{}{}{}", describe(capture), describeGiven(capture, result), describe(given, result.rig),
+                   describeNormals(given, result), describe(result.times));
     }
     if (!common.compareRig.empty() && !common.quiet) {
-        fmt::print("{}", describeDisagreement(capture, result.rig, common.compareRig));
+        fmt::print("{}", describeDisagreement(capture, result.given, result.rig, common.compareRig));
     }
     const std::filesystem::path truth = arguments.truth.empty() ? capture.truthNormals : arguments.truth;
     if (!truth.empty()) {
@@ -80,7 +88,7 @@ void runNormals(NormalsArguments& arguments)
     if (!common.debugFolder.empty()) {
         makeDebugFolder(common.debugFolder);
         saveNormalPictures(common.debugFolder, result.normals);
-        saveVerdictPictures(common.debugFolder, capture, result);
+        saveVerdictPictures(common.debugFolder, given, result);
     }
 }
 
@@ -92,7 +100,9 @@ void addNormalsCommand(CLI::App& app)
     CLI::App* command = app.add_subcommand("normals", "The first half of acquire: photographs to a normal map");
     arguments->common.addTo(*command);
     command->add_option("-o,--output", arguments->output, "Normal map to write, .exr or .png")->required();
-    command->add_option("--truth", arguments->truth, "True normals to compare with (.mat, .png, .exr)");
+    command->add_option(
+        "--truth", arguments->truth,
+        "True normals to compare with (.mat, .png, .exr); sphere: those of the ball that fills the mask");
     command->footer("Example:\n  nacre normals ballPNG --normals threshold -o ball.exr");
     command->callback([arguments] { runNormals(*arguments); });
 }

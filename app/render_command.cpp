@@ -10,7 +10,9 @@
 #include "app/light_argument.h"
 #include "app/size_argument.h"
 #include "engine/gpu/renderer.h"
+#include "engine/scene/brdf_tabulation.h"
 #include "engine/scene/error.h"
+#include "engine/scene/material_specification.h"
 #include "engine/scene/whole_file.h"
 
 namespace nacre {
@@ -19,6 +21,8 @@ namespace {
 
 struct RenderArguments {
     std::filesystem::path surface;
+    std::string material; // in place of a surface's
+    std::filesystem::path fits;
     std::vector<std::string> lights;
     std::filesystem::path onto;
     std::string normalY = "gl";
@@ -29,6 +33,13 @@ struct RenderArguments {
     bool force = false;
     bool quiet = false;
 };
+
+// Software devices are called as their driver is: not twice.
+std::string describe(const DeviceInfo& device)
+{
+    const bool same = device.driver.starts_with(device.name.substr(0, device.name.find(' ')));
+    return same ? device.driver : fmt::format("{} ({})", device.name, device.driver);
+}
 
 // The picture's kind follows from its extension: EXR keeps linear radiance, PNG is exposed for the eye.
 bool isForTheEye(const RenderArguments& arguments)
@@ -55,6 +66,26 @@ NormalY normalYOf(const RenderArguments& arguments)
                     "gl (green points up) or dx (down)", Error::kUsage);
     }
     return arguments.normalY == "gl" ? NormalY::gl : NormalY::dx;
+}
+
+// A named material as a surface without pixels: --onto gives the normals.
+Surface surfaceOfMaterial(const RenderArguments& arguments)
+{
+    const NamedBrdf named = parseMaterial(arguments.material, fitsFolderFrom(arguments.fits));
+    const BrdfTable* table = tableOf(named.model);
+    Surface surface;
+    surface.materials.push_back({named.name, table ? *table : tabulatedBrdf(named.model), {}});
+    return surface;
+}
+
+void checkMaterialArguments(const RenderArguments& arguments)
+{
+    if (arguments.surface.empty() == arguments.material.empty()) {
+        throw Error("", "one thing to render is needed", "either SURFACE or --material SPEC", Error::kUsage);
+    }
+    if (!arguments.material.empty() && arguments.onto.empty()) {
+        throw Error("", "--material has no shape of its own", "--onto NORMALS or --onto NAME.nacre", Error::kUsage);
+    }
 }
 
 // The surface to draw: the measured one, or its first material on other normals; fitted into --size where given.
@@ -105,8 +136,9 @@ void runRender(const RenderArguments& arguments)
 {
     const bool forTheEye = isForTheEye(arguments);
     normalYOf(arguments);
+    checkMaterialArguments(arguments);
     WholeOutput(arguments.output, arguments.force); // refuses now what it would refuse after the work
-    Surface measured = loadSurface(arguments.surface);
+    Surface measured = arguments.material.empty() ? loadSurface(arguments.surface) : surfaceOfMaterial(arguments);
     Scene scene;
     scene.lights = lightsFromArguments(arguments.lights, measured.lights);
     const Context context(arguments.device);
@@ -123,8 +155,8 @@ void runRender(const RenderArguments& arguments)
         return;
     }
     noteLightsBeyondTable(scene);
-    fmt::print("rendered     {}x{} pixels under {} light{}\ndevice       {} ({})\n", frame.width, frame.height,
-               scene.lights.size(), scene.lights.size() == 1 ? "" : "s", context.info().name, context.info().driver);
+    fmt::print("rendered     {}x{} pixels under {} light{}\ndevice       {}\n", frame.width, frame.height,
+               scene.lights.size(), scene.lights.size() == 1 ? "" : "s", describe(context.info()));
     if (forTheEye) {
         fmt::print("exposure     {:+.2f} stops{}\n", stops, arguments.exposure ? "" : " (automatic)");
     }
@@ -137,7 +169,14 @@ void addRenderCommand(CLI::App& app)
 {
     auto arguments = std::make_shared<RenderArguments>();
     CLI::App* command = app.add_subcommand("render", "A surface, or its material on other normals, under any lights");
-    command->add_option("SURFACE", arguments->surface, "Folder NAME.nacre that acquire wrote")->required();
+    command->add_option("SURFACE", arguments->surface, "Folder NAME.nacre that acquire wrote; or --material");
+    command->add_option(
+        "--material", arguments->material,
+        "In place of SURFACE, with --onto: FILE.binary (MERL), FILE.bsdf (RGL), FILE.exr (our table) or "
+        "a model as synth takes it");
+    command->add_option("--fits", arguments->fits,
+                        "Folder of merl_abc_params.csv and merl_sgd_params.csv "
+                        "[environment variable NACRE_FITS_DIR]");
     command
         ->add_option("--light", arguments->lights,
                      "x,y,z[,r,g,b]: direction towards the light (x right, y up, z towards the camera), irradiance "
@@ -160,7 +199,8 @@ void addRenderCommand(CLI::App& app)
     command->add_flag("--force", arguments->force, "Replace an output that exists");
     command->add_flag("--quiet", arguments->quiet, "Print nothing");
     command->footer("Example:\n  nacre render horse.nacre --light=-0.5,0.3,1 --light 0.6,0,1,1,0.8,0.6 --size 640x480 "
-                    "-o horse.png\n  nacre render horse.nacre --onto cloth.exr -o cloth.exr");
+                    "-o horse.png\n  nacre render horse.nacre --onto cloth.exr -o cloth.exr\n"
+                    "  nacre render --material paper_white_rgb.bsdf --onto cloth.exr -o paper.png");
     command->callback([arguments] { runRender(*arguments); });
 }
 

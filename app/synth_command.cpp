@@ -26,7 +26,8 @@ constexpr const char* kExample =
     "Example:\n"
     "  nacre synth bronze --material 'ggx:diffuse=0.05,0.03,0.02;specular=0.6,0.4,0.25;alpha=0.25' --lights 48\n"
     "  nacre synth plastic --material merl-sgd:red-plastic --fits FOLDER --exposures 1,0.25,0.0625\n"
-    "Materials: lambert:R,G,B  ggx:diffuse=R,G,B;specular=R,G,B;alpha=A  merl-abc:NAME  merl-sgd:NAME";
+    "Materials: lambert:R,G,B  ggx:diffuse=R,G,B;specular=R,G,B;alpha=A  merl-abc:NAME  merl-sgd:NAME\n"
+    "  FILE.binary (MERL)  FILE.bsdf (RGL, isotropic RGB)  FILE.exr (our table)";
 
 void describe(const SynthArguments& arguments, const SynthScene& scene)
 {

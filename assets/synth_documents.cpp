@@ -59,6 +59,17 @@ Json parametersOf(const AbcModel& m)
     return {{"model", "abc"}, {"kD", jsonOf(m.kD)}, {"A", jsonOf(m.A)}, {"B", m.B}, {"C", m.C}, {"ior", m.ior}};
 }
 
+// Measured materials have no parameters: their file's name, in "material", says what they are.
+Json parametersOf(const std::shared_ptr<const BrdfTable>&)
+{
+    return {{"model", "table"}};
+}
+
+Json parametersOf(const std::shared_ptr<const RglBrdf>&)
+{
+    return {{"model", "RGL database"}};
+}
+
 Json parametersOf(const SgdModel& m)
 {
     return {{"model", "sgd"},           {"rhoD", jsonOf(m.rhoD)}, {"rhoS", jsonOf(m.rhoS)},

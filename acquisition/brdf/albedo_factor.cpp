@@ -1,5 +1,12 @@
 #include "acquisition/brdf/albedo_factor.h"
 
+#include <algorithm>
+#include <cmath>
+
+#include <glm/geometric.hpp>
+
+#include "engine/scene/parallel_for.h"
+
 namespace nacre {
 
 namespace {
@@ -16,6 +23,50 @@ glm::vec3 colourOf(std::span<const glm::vec3> radiance, const Verdict* verdicts,
     return grey > 0 ? sum / grey : glm::vec3(0);
 }
 
+constexpr int kRefitRounds = 4;
+
+// Of one pixel: what it shows and what the table predicts for a factor of 1, both for irradiance 1.
+struct PixelPrediction {
+    std::vector<glm::vec3> observed, predicted;
+    float limit = 0; // of a miss
+};
+
+bool predictPixel(const Observations& block, size_t p, const glm::vec3& normal, const std::vector<Light>& lights,
+                  const BrdfTable& table, PixelPrediction& pixel)
+{
+    pixel.observed.clear();
+    pixel.predicted.clear();
+    std::vector<float> greys;
+    for (size_t i = 0; i < lights.size(); ++i) {
+        const float nDotL = glm::dot(normal, lights[i].direction);
+        const glm::vec3 observed = block.radianceOf(p)[i] / lights[i].irradiance;
+        greys.push_back(greyOf(observed));
+        if (nDotL > 0 && !block.saturatedOf(p)[i]) {
+            pixel.observed.push_back(observed);
+            pixel.predicted.push_back(evaluateTable(table, normal, lights[i].direction, {0, 0, 1}).value * nDotL);
+        }
+    }
+    pixel.limit = kRefitLimit * brightLevel(greys);
+    return pixel.limit > 0;
+}
+
+glm::vec3 refittedFactor(const PixelPrediction& pixel, glm::vec3 factor)
+{
+    for (int round = 0; round < kRefitRounds; ++round) {
+        glm::vec3 up(0), down(0);
+        for (size_t i = 0; i < pixel.observed.size(); ++i) {
+            const float miss = std::abs(greyOf(pixel.observed[i] - factor * pixel.predicted[i]));
+            const float weight = std::max(0.0f, 1 - miss / pixel.limit);
+            up += weight * pixel.observed[i] * pixel.predicted[i];
+            down += weight * pixel.predicted[i] * pixel.predicted[i];
+        }
+        for (int c = 0; c < 3; ++c) {
+            factor[c] = up[c] > 0 && down[c] > 0 ? up[c] / down[c] : factor[c];
+        }
+    }
+    return factor;
+}
+
 } // namespace
 
 std::vector<glm::vec3> albedoFactors(const Observations& block, const NormalBlock& normals,
@@ -30,6 +81,23 @@ std::vector<glm::vec3> albedoFactors(const Observations& block, const NormalBloc
         }
     }
     return factors;
+}
+
+void refitAlbedo(const Observations& block, const NormalMap& normals, const std::vector<Light>& lights,
+                 const BrdfTable& table, int threads, Image& albedo)
+{
+    parallelFor(block.pixels.size(), 64, threads, [&](size_t first, size_t last) {
+        PixelPrediction pixel;
+        for (size_t p = first; p < last; ++p) {
+            const uint32_t at = block.pixels[p];
+            const int x = static_cast<int>(at % albedo.width), y = static_cast<int>(at / albedo.width);
+            const glm::vec3 factor = albedo.rgb(x, y);
+            const bool known = normals.confidence[at] > 0 && factor != glm::vec3(0);
+            if (known && predictPixel(block, p, normals.normals[at], lights, table, pixel)) {
+                albedo.setRgb(x, y, refittedFactor(pixel, factor));
+            }
+        }
+    });
 }
 
 void normaliseAlbedo(Image& albedo, BrdfTable& table)

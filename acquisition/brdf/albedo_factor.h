@@ -5,6 +5,7 @@
 #include "acquisition/normals/normals.h"
 #include "engine/scene/brdf_table.h"
 #include "engine/scene/image.h"
+#include "engine/scene/normal_map.h"
 
 namespace nacre {
 
@@ -12,6 +13,14 @@ namespace nacre {
 // scale of the pixel's own model, coloured as its explained observations are. 0 where there is no normal.
 std::vector<glm::vec3> albedoFactors(const Observations& block, const NormalBlock& normals,
                                      const std::vector<Light>& lights);
+
+// Fits each pixel's factor anew to what the material's own table predicts, channel by channel: reweighted least squares
+// whose weights fall linearly to zero where the prediction misses by kRefitLimit of the pixel's bright level, so that
+// cast shadows and interreflections say nothing. `albedo` holds the factors to start from, over whole photographs;
+// pixels without one, without a normal, or that the table does not explain keep what they have.
+constexpr float kRefitLimit = 0.225f;
+void refitAlbedo(const Observations& block, const NormalMap& normals, const std::vector<Light>& lights,
+                 const BrdfTable& table, int threads, Image& albedo);
 
 // Makes the mean over the pixels that have a factor 1 in each channel, and gives the table what was taken from them.
 void normaliseAlbedo(Image& albedo, BrdfTable& table);

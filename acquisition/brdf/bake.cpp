@@ -54,21 +54,21 @@ glm::ivec3 tableSize(const TableDomain& domain)
     return {90, std::max(2, static_cast<int>(std::ceil(domain.thetaDMax * kRadian)) + 1), 45};
 }
 
-BakedBrdf bakeBrdf(const BrdfSamples& samples, const RegressionOptions& regression, const BakeOptions& options)
+BakedBrdf bakeBrdf(const BrdfSamples& samples, const InterpolationOptions& interpolation, const BakeOptions& options)
 {
     const glm::ivec3 size = options.size.x > 0 ? options.size : tableSize(samples.domain);
     BakedBrdf baked{BrdfTable(size, samples.domain), {}};
     BrdfTable& table = baked.table;
     baked.coverage.distance.resize(table.values.size());
     baked.coverage.count.assign(table.values.size(), 0.0f);
-    const KernelRegression interpolant(samples, regression);
+    const BrdfInterpolant interpolant = makeInterpolant(samples, interpolation);
     const glm::vec3 last = glm::max(glm::vec3(size) - 1.0f, glm::vec3(1.0f));
     parallelFor(static_cast<size_t>(size.y) * size.z, 8, options.threads, [&](size_t first, size_t end) {
         for (size_t row = first; row < end; ++row) {
             const int j = static_cast<int>(row % size.y), k = static_cast<int>(row / size.y);
             for (int i = 0; i < size.x; ++i) {
                 const glm::vec3 unit = glm::vec3(i, j, k) / last;
-                const RegressionValue value = interpolant.evaluate(unit);
+                const InterpolatedValue value = interpolant(unit);
                 const size_t texel = table.index(i, j, k);
                 table.values[texel] = value.value;
                 table.confidence[texel] =

@@ -1,5 +1,5 @@
 #pragma once
-#include "acquisition/brdf/kernel_regression.h"
+#include "acquisition/brdf/interpolation.h"
 #include "engine/scene/brdf_table.h"
 #include "engine/scene/light.h"
 
@@ -24,6 +24,6 @@ struct BakedBrdf {
     Coverage coverage;
 };
 
-BakedBrdf bakeBrdf(const BrdfSamples& samples, const RegressionOptions& regression, const BakeOptions& options);
+BakedBrdf bakeBrdf(const BrdfSamples& samples, const InterpolationOptions& interpolation, const BakeOptions& options);
 
 } // namespace nacre

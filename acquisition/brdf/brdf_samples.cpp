@@ -1,8 +1,11 @@
 #include "acquisition/brdf/brdf_samples.h"
 
+#include <cmath>
+
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "engine/scene/error.h"
 #include "shared/shading.h"
 
 namespace nacre {
@@ -18,6 +21,24 @@ double scattered(uint32_t pixel)
 }
 
 } // namespace
+
+BrdfSamples usableSamples(const BrdfSamples& samples)
+{
+    BrdfSamples usable;
+    usable.domain = samples.domain;
+    for (size_t i = 0; i < samples.size(); ++i) {
+        const glm::vec3 sum = samples.unit[i] + samples.values[i];
+        if (samples.weights[i] > 0 && std::isfinite(sum.x + sum.y + sum.z + samples.weights[i])) {
+            usable.unit.push_back(samples.unit[i]);
+            usable.values.push_back(samples.values[i]);
+            usable.weights.push_back(samples.weights[i]);
+        }
+    }
+    if (usable.size() == 0) {
+        throw Error("", "no observation is left to measure a BRDF from", "lit, unsaturated pixels with normals");
+    }
+    return usable;
+}
 
 void gatherSamples(const Observations& block, const NormalBlock& normals, std::span<const glm::vec3> albedo,
                    const std::vector<Light>& lights, double share, const SampleOptions& options, BrdfSamples& samples,

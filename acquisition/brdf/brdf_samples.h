@@ -18,6 +18,9 @@ struct BrdfSamples {
     size_t size() const { return values.size(); }
 };
 
+// Those with a positive weight and finite numbers. Throws Error where none is left.
+BrdfSamples usableSamples(const BrdfSamples& samples);
+
 struct SampleOptions {
     // Rejected below: at grazing light f = I / (E n.l) divides noise by little.
     float leastCosine = 0.1f;

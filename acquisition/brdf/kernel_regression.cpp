@@ -6,14 +6,11 @@
 
 #include <nanoflann.hpp>
 
-#include "engine/scene/error.h"
-
 namespace nacre {
 
 namespace {
 
 constexpr size_t kLeafSize = 24;
-constexpr int kMostNeighbours = 512;
 
 // The paper's metric: the three angles as they are.
 glm::vec3 anglesFromUnit(const TableDomain& domain, const glm::vec3& unit)
@@ -39,26 +36,19 @@ using Tree = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<fl
 } // namespace
 
 struct KernelRegression::Index {
-    TableDomain domain;
+    BrdfSamples samples;
     Points points;
-    const BrdfSamples& samples;
-    int k;
+    size_t k;
     std::unique_ptr<Tree> tree;
 };
 
-KernelRegression::KernelRegression(const BrdfSamples& samples, const RegressionOptions& options)
-    : index_(new Index{samples.domain, {}, samples, options.k, nullptr})
+KernelRegression::KernelRegression(const BrdfSamples& samples, int k)
+    : index_(new Index{usableSamples(samples), {}, static_cast<size_t>(k), nullptr})
 {
-    if (samples.size() == 0) {
-        throw Error("", "no observation is left to measure a BRDF from", "lit, unsaturated pixels with normals");
-    }
-    if (options.k < 1 || options.k > kMostNeighbours) {
-        throw Error("", "--k " + std::to_string(options.k) + " is out of range",
-                    "1 to " + std::to_string(kMostNeighbours), Error::kUsage);
-    }
-    index_->points.angles.reserve(samples.size());
-    for (const glm::vec3& unit : samples.unit) {
-        index_->points.angles.push_back(anglesFromUnit(samples.domain, unit));
+    const BrdfSamples& usable = index_->samples;
+    index_->points.angles.reserve(usable.size());
+    for (const glm::vec3& unit : usable.unit) {
+        index_->points.angles.push_back(anglesFromUnit(usable.domain, unit));
     }
     index_->tree = std::make_unique<Tree>(3, index_->points, nanoflann::KDTreeSingleIndexAdaptorParams(kLeafSize));
     index_->tree->buildIndex();
@@ -66,11 +56,11 @@ KernelRegression::KernelRegression(const BrdfSamples& samples, const RegressionO
 
 KernelRegression::~KernelRegression() = default;
 
-RegressionValue KernelRegression::evaluate(const glm::vec3& unit) const
+InterpolatedValue KernelRegression::evaluate(const glm::vec3& unit) const
 {
     std::array<uint32_t, kMostNeighbours + 1> found;
     std::array<float, kMostNeighbours + 1> squaredDistance;
-    const glm::vec3 query = anglesFromUnit(index_->domain, unit);
+    const glm::vec3 query = anglesFromUnit(index_->samples.domain, unit);
     const size_t wanted = index_->k + 1;
     const size_t count = index_->tree->knnSearch(&query.x, wanted, found.data(), squaredDistance.data());
     // Where fewer than k + 1 samples exist, the furthest must still weigh something.

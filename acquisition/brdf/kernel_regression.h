@@ -1,20 +1,9 @@
 #pragma once
 #include <memory>
 
-#include <glm/vec3.hpp>
-
-#include "acquisition/brdf/brdf_samples.h"
+#include "acquisition/brdf/interpolation.h"
 
 namespace nacre {
-
-struct RegressionOptions {
-    int k = 25; // neighbours
-};
-
-struct RegressionValue {
-    glm::vec3 value{0};
-    float nearest = 0; // distance to the nearest sample, radians
-};
 
 // Interpolates scattered samples as the paper does: the k nearest neighbours in raw angles (radians), averaged with the
 // Epanechnikov kernel 3/4 (1 - u^2), u = distance / bandwidth (Wu et al., Eq. 10; Simonoff, Smoothing Methods in
@@ -25,9 +14,9 @@ public:
     static constexpr float kBandwidthFloor = 1e-6f; // radians
 
     // Throws Error where there is no sample.
-    KernelRegression(const BrdfSamples& samples, const RegressionOptions& options);
+    KernelRegression(const BrdfSamples& samples, int k);
     ~KernelRegression();
-    RegressionValue evaluate(const glm::vec3& unit) const;
+    InterpolatedValue evaluate(const glm::vec3& unit) const;
 
 private:
     struct Index;

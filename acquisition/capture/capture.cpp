@@ -64,6 +64,9 @@ void applyOptions(LayoutContents& contents, const CaptureOptions& options)
     if (!options.mask.empty()) {
         contents.masks = {options.mask};
     }
+    if (!options.smooth.empty()) {
+        contents.capture.smoothFile = options.smooth;
+    }
     if (contents.masks.size() > 1) {
         throw Error(contents.masks[1], fmt::format("is a mask beside {}", contents.masks[0].filename().string()),
                     "one, or --mask to choose");
@@ -187,6 +190,24 @@ void requireLabelSize(const Capture& capture)
     }
 }
 
+// The marks have to leave normals that can be smoothed in, and to mark something.
+void loadSmooth(Capture& capture)
+{
+    if (capture.smoothFile.empty()) {
+        return;
+    }
+    const FileWindow& w = capture.window;
+    capture.smooth = windowedMarks(loadMask(capture.smoothFile, w.fileWidth, w.fileHeight), capture);
+    size_t marked = 0;
+    for (size_t i = 0; i < capture.mask.size(); ++i) {
+        marked += capture.smooth[i] && capture.mask[i];
+    }
+    if (marked == 0 || marked == capture.maskPixels) {
+        throw Error(capture.smoothFile, marked == 0 ? "marks nothing of the object" : "marks all of the object",
+                    "white on the part of the object whose normals are to be smoothed in from the rest");
+    }
+}
+
 void requireSphereMask(const std::optional<SpherePhotographs>& sphere)
 {
     if (sphere && !sphere->maskFile.empty()) {
@@ -202,8 +223,28 @@ std::string comparedName(std::string name)
     return lowerCase(fs::path(name).stem().string());
 }
 
-// The light of each photograph where the file names photographs as the capture does; empty where it names none of
-// them, as a rig that was calibrated with other photographs, or where names repeat. Throws Error where it names some.
+} // namespace
+
+std::string describe(CaptureLayout layout)
+{
+    switch (layout) {
+    case CaptureLayout::uw:
+        return "University of Washington";
+    case CaptureLayout::diligent:
+        return "DiLiGenT";
+    case CaptureLayout::rti:
+        return "RTI";
+    case CaptureLayout::json:
+        break;
+    }
+    return "capture.json";
+}
+
+Photograph photographOf(const fs::path& file)
+{
+    return {file.filename().string(), {Exposure{file}}};
+}
+
 std::vector<size_t> lightsByName(const LightFile& lights, const std::vector<Photograph>& photographs,
                                  const fs::path& file)
 {
@@ -232,28 +273,6 @@ std::vector<size_t> lightsByName(const LightFile& lights, const std::vector<Phot
             "a light for each photograph");
     }
     return order;
-}
-
-} // namespace
-
-std::string describe(CaptureLayout layout)
-{
-    switch (layout) {
-    case CaptureLayout::uw:
-        return "University of Washington";
-    case CaptureLayout::diligent:
-        return "DiLiGenT";
-    case CaptureLayout::rti:
-        return "RTI";
-    case CaptureLayout::json:
-        break;
-    }
-    return "capture.json";
-}
-
-Photograph photographOf(const fs::path& file)
-{
-    return {file.filename().string(), {Exposure{file}}};
 }
 
 void assignLights(LayoutContents& contents, const LightFile& lights, const fs::path& file)
@@ -323,6 +342,7 @@ Capture loadCapture(const fs::path& folder, const CaptureOptions& options)
                        : windowedMask(loadMask(contents.masks[0], window.fileWidth, window.fileHeight), capture,
                                       contents.masks[0]);
     capture.maskPixels = std::count(capture.mask.begin(), capture.mask.end(), uint8_t{1});
+    loadSmooth(capture);
     if (contents.offset) {
         applyOffset(capture, *contents.offset);
     }

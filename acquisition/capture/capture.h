@@ -68,6 +68,7 @@ struct Capture {
     std::string lightsOrder;   // how they were matched to photographs, for the user; empty where they come with them
     std::vector<uint8_t> mask; // width x height, 1 on the object
     size_t maskPixels = 0;
+    std::vector<uint8_t> smooth; // 1 where normals are not to be estimated but smoothed in; empty where nowhere
     std::optional<SpherePhotographs> mirrorSphere;
     std::optional<SpherePhotographs> diffuseSphere;
     TransferCurve curve = TransferCurve::linear;
@@ -77,6 +78,7 @@ struct Capture {
     std::optional<Photograph> ambient;  // without the lights; subtracted from every photograph of the object
     std::filesystem::path truthNormals; // empty where there is none; of the files' size, see windowedNormals
     std::filesystem::path labelsFile;   // of the files' size; empty where there is none
+    std::filesystem::path smoothFile;   // the same
     std::optional<double> lightDistance; // from the object, in the unit of
     std::optional<double> objectWidth;
 };
@@ -91,6 +93,7 @@ struct OffsetChoice {
 struct CaptureOptions {
     std::optional<TransferCurve> transfer;
     std::filesystem::path mask;
+    std::filesystem::path smooth;       // picture that is white where normals are to be smoothed in
     std::filesystem::path mirrorSphere; // folder of photographs and a mask
     std::filesystem::path diffuseSphere;
     std::vector<std::string> skip; // names of photographs, with or without extension

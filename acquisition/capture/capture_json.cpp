@@ -211,7 +211,7 @@ std::optional<LayoutContents> readJsonLayout(const fs::path& folder)
     const JsonNode root = JsonNode::loadVersioned(file, "nacre capture", kCaptureVersion);
     root.allowKeys({"format", "version", "name", "transfer", "mask", "truthNormals", "lights", "irradiances",
                     "photographs", "mirrorSphere", "diffuseSphere", "ambient", "offset", "crop", "scale", "labels",
-                    "lightDistance", "objectWidth"});
+                    "lightDistance", "objectWidth", "smooth"});
     LayoutContents contents;
     Capture& capture = contents.capture;
     capture.layout = CaptureLayout::json;
@@ -235,6 +235,9 @@ std::optional<LayoutContents> readJsonLayout(const fs::path& folder)
     }
     if (const auto labels = root.find("labels")) {
         capture.labelsFile = labels->existingPath();
+    }
+    if (const auto smooth = root.find("smooth")) {
+        capture.smoothFile = smooth->existingPath();
     }
     if (const auto offset = root.find("offset")) {
         contents.offset = offsetOf(*offset);

@@ -35,6 +35,11 @@ Photograph photographOf(const std::filesystem::path& file);
 // does, otherwise in order. Throws Error where the counts differ.
 void assignLights(LayoutContents& contents, const LightFile& lights, const std::filesystem::path& file);
 
+// The light of each photograph where the file names photographs as the capture does; empty where it names none of
+// them, as a rig that was calibrated with other photographs, or where names repeat. Throws Error where it names some.
+std::vector<size_t> lightsByName(const LightFile& lights, const std::vector<Photograph>& photographs,
+                                 const std::filesystem::path& file);
+
 // The checks that need picture headers alone: sizes, one transfer curve, EXIF exposure times. Fills size and curve.
 void examineHeaders(LayoutContents& contents, const std::optional<TransferCurve>& chosen);
 

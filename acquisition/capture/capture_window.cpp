@@ -60,6 +60,13 @@ std::vector<uint8_t> windowedMask(const std::vector<uint8_t>& mask, const Captur
     return result;
 }
 
+std::vector<uint8_t> windowedMarks(const std::vector<uint8_t>& marks, const Capture& capture)
+{
+    std::vector<uint8_t> result(static_cast<size_t>(capture.width) * capture.height, uint8_t{0});
+    forEachBoxPixel(capture, [&](size_t pixel, size_t filePixel) { result[pixel] |= marks[filePixel]; });
+    return result;
+}
+
 NormalMap windowedNormals(const NormalMap& normals, const Capture& capture, const std::filesystem::path& file)
 {
     const FileWindow& w = capture.window;

@@ -17,6 +17,9 @@ void fitWindow(Capture& capture, int fileWidth, int fileHeight, const std::files
 std::vector<uint8_t> windowedMask(const std::vector<uint8_t>& mask, const Capture& capture,
                                   const std::filesystem::path& file);
 
+// Marks of the files' size to the capture's: a box is marked where any of it is.
+std::vector<uint8_t> windowedMarks(const std::vector<uint8_t>& marks, const Capture& capture);
+
 // Normals of the files' size to the capture's: a box has the mean direction where it has normals all over, else none.
 // Throws Error, naming `file`, where the size differs from the photographs'.
 NormalMap windowedNormals(const NormalMap& normals, const Capture& capture, const std::filesystem::path& file);

@@ -278,4 +278,20 @@ bool ObservationReader::next(Observations& block)
     return true;
 }
 
+Observations selectLights(const Observations& block, const std::vector<size_t>& lights)
+{
+    Observations selected;
+    selected.lightCount = lights.size();
+    selected.pixels = block.pixels;
+    selected.radiance.reserve(block.pixels.size() * lights.size());
+    selected.saturated.reserve(block.pixels.size() * lights.size());
+    for (size_t p = 0; p < block.pixels.size(); ++p) {
+        for (const size_t light : lights) {
+            selected.radiance.push_back(block.radianceOf(p)[light]);
+            selected.saturated.push_back(block.saturatedOf(p)[light]);
+        }
+    }
+    return selected;
+}
+
 } // namespace nacre

@@ -29,6 +29,9 @@ struct Observations {
     }
 };
 
+// What the lights that are named show, leaving others out.
+Observations selectLights(const Observations& block, const std::vector<size_t>& lights);
+
 // Walks a capture in bands of rows, all photographs side by side, so that memory is bounded by the block and not by
 // the capture. A capture that fits into the budget is one block.
 class ObservationReader {

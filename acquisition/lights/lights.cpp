@@ -23,6 +23,11 @@ namespace {
 // Beyond it, an error of 1 % in the photographs can turn the normal by more than it is long.
 constexpr double kWorstCondition = 100;
 constexpr double kLargestTurn = 2; // degrees
+// Of photographs against the model, and what it may make of the normals in degrees.
+constexpr double kUsualError = 0.01;
+constexpr double kLargestError = 10;
+// Three observations explain any three values; one false value shows among five, and is named where four others stay.
+constexpr size_t kFewestForOutliers = 5;
 
 Circle outlineOf(const SpherePhotographs& sphere)
 {
@@ -102,21 +107,6 @@ void warnOfNearLights(const Capture& capture, Rig& rig)
     }
 }
 
-void checkLights(const Capture& capture, Rig& rig)
-{
-    if (rig.lights.size() < 3) {
-        throw Error(capture.folder, fmt::format("has {} usable light(s)", rig.lights.size()),
-                    "at least three lights that do not lie in one plane");
-    }
-    rig.condition = conditionOf(rig.lights);
-    if (!(rig.condition < kWorstCondition)) {
-        throw Error(
-            capture.folder,
-            fmt::format("its lights lie in one plane with the object (condition number {:.3g})", rig.condition),
-            fmt::format("directions that span space (below {:.0f}; well-spread lights have 1 to 10)", kWorstCondition));
-    }
-}
-
 } // namespace
 
 double conditionOf(const std::vector<Light>& lights)
@@ -129,6 +119,38 @@ double conditionOf(const std::vector<Light>& lights)
     const Eigen::VectorXd singular = directions.jacobiSvd().singularValues();
     const double smallest = singular.size() < 3 ? 0 : singular(2);
     return smallest > 0 ? singular(0) / smallest : std::numeric_limits<double>::infinity();
+}
+
+std::vector<std::string> warningsOf(const std::vector<Light>& lights)
+{
+    std::vector<std::string> warnings;
+    const double condition = conditionOf(lights), degrees = glm::degrees(std::atan(kUsualError * condition));
+    if (degrees >= kLargestError) {
+        warnings.push_back(fmt::format("warning: the lights lie nearly in one plane (condition {:.0f}): an error of "
+                                       "{:.0f} % in the photographs turns normals by up to {:.0f} degrees",
+                                       condition, 100 * kUsualError, degrees));
+    }
+    if (lights.size() < kFewestForOutliers) {
+        warnings.push_back(fmt::format("warning: with {} lights shadows and highlights cannot be told from shading; "
+                                       "{} or more can",
+                                       lights.size(), kFewestForOutliers));
+    }
+    return warnings;
+}
+
+double requireSpanningLights(const std::vector<Light>& lights, const std::filesystem::path& source)
+{
+    if (lights.size() < 3) {
+        throw Error(source, fmt::format("has {} usable light(s)", lights.size()),
+                    "at least three lights that do not lie in one plane");
+    }
+    const double condition = conditionOf(lights);
+    if (!(condition < kWorstCondition)) {
+        throw Error(
+            source, fmt::format("its lights lie in one plane with the object (condition number {:.3g})", condition),
+            fmt::format("directions that span space (below {:.0f}; well-spread lights have 1 to 10)", kWorstCondition));
+    }
+    return condition;
 }
 
 Rig calibrateLights(const Capture& capture, const CalibrationOptions& options)
@@ -148,7 +170,7 @@ Rig calibrateLights(const Capture& capture, const CalibrationOptions& options)
     if (capture.diffuseSphere) {
         addIrradiances(capture, options, rig);
     }
-    checkLights(capture, rig);
+    rig.condition = requireSpanningLights(rig.lights, capture.folder);
     warnOfNearLights(capture, rig);
     return rig;
 }

@@ -33,8 +33,16 @@ struct Rig {
 // lights cannot be known, are fewer than three, or lie in one plane.
 Rig calibrateLights(const Capture& capture, const CalibrationOptions& options = {});
 
+// The lights' condition. Throws Error that names `source` where they are fewer than three or lie in one plane.
+double requireSpanningLights(const std::vector<Light>& lights, const std::filesystem::path& source);
+
 // Largest over smallest singular value of the n x 3 matrix of directions: by what a small error of the photographs is
 // multiplied at worst in the normal. Infinite where the lights lie in one plane with the object.
 double conditionOf(const std::vector<Light>& lights);
+
+// "warning: ..." for each reason why normals from such lights are not to be trusted, whatever their residuals say:
+// lights so nearly in one plane that an error of 1 % in the photographs, which few are below, can turn normals by 10
+// degrees; too few to tell a shadow or a highlight from the surface's own shading.
+std::vector<std::string> warningsOf(const std::vector<Light>& lights);
 
 } // namespace nacre

@@ -149,4 +149,19 @@ glm::vec3 sphereNormal(const Circle& circle, double x, double y)
     return glm::vec3(nx, ny, std::sqrt(1 - r2));
 }
 
+NormalMap sphereNormals(const Circle& circle, int width, int height)
+{
+    NormalMap map(width, height);
+    for (int y = 0; y < height; ++y) {
+        for (int x = 0; x < width; ++x) {
+            const glm::vec3 n = sphereNormal(circle, x + 0.5, y + 0.5);
+            if (n.z > 0) {
+                map.normals[map.index(x, y)] = n;
+                map.confidence[map.index(x, y)] = 1;
+            }
+        }
+    }
+    return map;
+}
+
 } // namespace nacre

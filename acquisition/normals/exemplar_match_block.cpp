@@ -4,6 +4,7 @@
 #include <glm/trigonometric.hpp>
 
 #include "acquisition/normals/exemplar_model.h"
+#include "acquisition/normals/exemplar_polish.h"
 #include "engine/scene/parallel_for.h"
 
 namespace nacre {
@@ -25,8 +26,12 @@ struct PixelMatch {
 PixelMatch matchFine(const Exemplar& exemplar, const MatchTarget& target, const glm::vec3& start, float cosRadius)
 {
     const Match match = findBestMatch(exemplar.fine, target, start, cosRadius, exemplar.scales);
-    return match.row < 0 ? PixelMatch{start, match}
-                         : PixelMatch{refinedNormal(exemplar.fine, target, match, exemplar.scales), match};
+    if (match.row < 0) {
+        return {start, match};
+    }
+    const glm::vec3 between = refinedNormal(exemplar.fine, target, match, exemplar.scales);
+    const PolishedMatch polished = polishedMatch(exemplar.fine, target, match, between, exemplar.scales);
+    return {polished.normal, {match.cost, polished.scale, match.row}};
 }
 
 // The first exemplar searches widely; all search finely around what it found, and the mean of their normals counts.
@@ -85,10 +90,10 @@ double predictionCost(const Exemplar& exemplar, const Intensities& intensities, 
                       const std::vector<float>& judged)
 {
     double sum = 0;
+    std::vector<float> column(exemplar.fine.stride);
     for (size_t p = 0; p < intensities.pixelCount(); ++p) {
-        const MatchTarget target = targetOf(intensities, p, judged);
-        const float* column = exemplar.fine.column(exemplar.fine.rowOf(result.normals[p]));
-        sum += matchCost(column, exemplar.fine.stride, target, result.scales[p]);
+        exemplar.fine.mixColumns(result.normals[p], column.data());
+        sum += matchCost(column.data(), column.size(), targetOf(intensities, p, judged), result.scales[p]);
     }
     return sum / static_cast<double>(intensities.pixelCount());
 }

@@ -34,6 +34,8 @@ constexpr float kDeviationSigmas = 5;
 // Observation over prediction per channel: the prediction is the pixel's own albedo in the channel times n.l.
 struct ChannelRatios {
     std::vector<float> values[3];
+    std::vector<float> grey;
+    size_t shadowed = 0; // pixels that face the light, but are dark
 };
 
 std::vector<ChannelRatios> gatherRatios(const Observations& sample, const NormalBlock& normals,
@@ -55,12 +57,21 @@ std::vector<ChannelRatios> gatherRatios(const Observations& sample, const Normal
         }
         for (size_t i = 0; i < lights.size(); ++i) {
             const float nDotL = glm::dot(pixel.normal, lights[i].direction);
-            if (squares > 0 && nDotL >= kLeastCosine && verdicts[i] != Verdict::shadow) {
+            if (squares <= 0 || nDotL < kLeastCosine) {
+                continue;
+            }
+            if (verdicts[i] == Verdict::shadow) {
+                ++ratios[i].shadowed;
+            } else {
                 const glm::vec3 ratio = radiance[i] / lights[i].irradiance * squares / (sum * nDotL);
                 for (int c = 0; c < 3; ++c) {
                     if (std::isfinite(ratio[c])) {
                         ratios[i].values[c].push_back(ratio[c]);
                     }
+                }
+                const float grey = greyOf(radiance[i] / lights[i].irradiance) * squares / (greyOf(sum) * nDotL);
+                if (std::isfinite(grey)) {
+                    ratios[i].grey.push_back(grey);
                 }
             }
         }
@@ -101,6 +112,22 @@ float largestGrey(const std::vector<glm::vec3>& ratios)
     return largest;
 }
 
+// Robust relative standard deviation of one photograph's ratios.
+PhotographScatter scatterOf(ChannelRatios& ratios)
+{
+    PhotographScatter scatter;
+    std::vector<float>& grey = ratios.grey;
+    scatter.litShare = static_cast<float>(grey.size()) / std::max<size_t>(1, grey.size() + ratios.shadowed);
+    if (grey.size() >= kFewestPixels) {
+        const float median = quantile(grey, 0.5);
+        for (float& value : grey) {
+            value = std::abs(value / median - 1);
+        }
+        scatter.spread = 1.4826f * quantile(grey, 0.5);
+    }
+    return scatter;
+}
+
 float spreadOf(const std::vector<glm::vec3>& ratios)
 {
     std::vector<float> deviations;
@@ -112,14 +139,15 @@ float spreadOf(const std::vector<glm::vec3>& ratios)
 
 } // namespace
 
-std::vector<std::string> correctIntensities(const Observations& sample, const std::vector<std::string>& names,
-                                            bool known, const NormalOptions& options, std::vector<Light>& lights)
+bool canCompare(const Observations& sample)
+{
+    return sample.lightCount >= kFewestLights && sample.pixels.size() >= kFewestPixels;
+}
+
+std::vector<std::string> correctIntensities(const PhotographRatios& found, const std::vector<std::string>& names,
+                                            bool known, std::vector<Light>& lights)
 {
     std::vector<std::string> remarks;
-    if (lights.size() < kFewestLights || sample.pixels.size() < kFewestPixels) {
-        return remarks;
-    }
-    const PhotographRatios found = estimateIntensityRatios(sample, lights, options);
     if (!known) {
         remarks.push_back(
             fmt::format("intensities estimated from the photographs themselves in {} steps: {:.2f} to {:.2f}",
@@ -175,6 +203,10 @@ PhotographRatios estimateIntensityRatios(const Observations& sample, const std::
             current[i].irradiance = lights[i].irradiance * next[i];
         }
         result.ratios = next;
+        if (change < kRest || result.iterations + 1 == kMostIterations) {
+            result.scatters.clear();
+            std::transform(gathered.begin(), gathered.end(), std::back_inserter(result.scatters), scatterOf);
+        }
         if (change < kRest) {
             break;
         }

@@ -7,10 +7,17 @@
 
 namespace nacre {
 
+// How far a photograph's pixels are from agreeing on one ratio.
+struct PhotographScatter {
+    float spread = 0;   // robust standard deviation of observation over prediction, relative to its median
+    float litShare = 0; // of the pixels that face the light
+};
+
 // How each photograph stands to the others: the median over its lit pixels of observation to prediction, per channel.
 struct PhotographRatios {
     std::vector<glm::vec3> ratios; // per light; 1 = as predicted. Their median over the lights is 1 in each channel
     float spread = 0;              // robust standard deviation of their logarithms
+    std::vector<PhotographScatter> scatters; // per light
     int iterations = 0;
 };
 
@@ -20,9 +27,12 @@ struct PhotographRatios {
 PhotographRatios estimateIntensityRatios(const Observations& sample, const std::vector<Light>& lights,
                                          const NormalOptions& options);
 
+// Whether there are enough photographs and pixels to compare them.
+bool canCompare(const Observations& sample);
+
 // Multiplies irradiances by the ratios: of every light where irradiances are not `known`, else of the photographs that
 // disagree with the rest. Answers a remark for each, by the photographs' names.
-std::vector<std::string> correctIntensities(const Observations& sample, const std::vector<std::string>& names,
-                                            bool known, const NormalOptions& options, std::vector<Light>& lights);
+std::vector<std::string> correctIntensities(const PhotographRatios& found, const std::vector<std::string>& names,
+                                            bool known, std::vector<Light>& lights);
 
 } // namespace nacre

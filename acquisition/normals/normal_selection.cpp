@@ -19,6 +19,8 @@ constexpr double kTieShare = 0.02;
 constexpr double kTieDifference = 0.002;
 // Beyond it more than half of what is predicted is as wrong as counts: the errors no longer tell methods apart.
 constexpr double kUnexplained = 0.5;
+// A cast shadow or a highlight costs no more than this share of the pixel's bright level.
+constexpr float kLimitShare = 0.5f;
 // What is left after holding out has to span space well.
 constexpr double kWorstCondition = 30;
 
@@ -70,8 +72,23 @@ std::vector<float> weightsOf(const std::vector<size_t>& chosen, size_t lights)
     return weights;
 }
 
-// The mean truncated error of the table's predictions under the held-out lights; each pixel's albedo is that of the
-// lights that were kept.
+// The mean square of what the predictions miss, each truncated at kLimitShare of the pixel's bright level and in units
+// of it: [0,1].
+double squaredCost(const std::vector<float>& column, std::span<const float> observed, const std::vector<float>& judged,
+                   float scale)
+{
+    const float limit = std::max(kLimitShare * brightLevel(observed), std::numeric_limits<float>::min());
+    double sum = 0, count = 0;
+    for (size_t i = 0; i < observed.size(); ++i) {
+        const float residual = std::min(std::abs(observed[i] - scale * column[i]) / limit, 1.0f);
+        sum += judged[i] * residual * residual;
+        count += judged[i];
+    }
+    return sum / count;
+}
+
+// The truncated error (root mean square) of the table's predictions under the held-out lights; each pixel's albedo is
+// that of the lights that were kept.
 double predictionError(const BrdfTable& table, const Intensities& sample, const std::vector<Light>& lights,
                        const std::vector<glm::vec3>& normals, const std::vector<float>& kept,
                        const std::vector<float>& heldOut)
@@ -85,9 +102,9 @@ double predictionError(const BrdfTable& table, const Intensities& sample, const 
                 nDotL > 0 ? evaluateTable(table, normals[p], lights[i].direction, {0, 0, 1}).value.x * nDotL : 0.0f;
         }
         const float scale = fittedScale(column.data(), sample.stride, targetOf(sample, p, kept), kOwnScales);
-        sum += matchCost(column.data(), sample.stride, targetOf(sample, p, heldOut), scale);
+        sum += squaredCost(column, sample.ofPixel(p), heldOut, scale);
     }
-    return sum / static_cast<double>(sample.pixelCount());
+    return std::sqrt(sum / static_cast<double>(sample.pixelCount()));
 }
 
 // The held-out error of the BRDF that a method's normals give; 1 where they give none.
@@ -124,16 +141,19 @@ NormalMethod selectNormalMethod(const Intensities& sample, const std::vector<Lig
                                 const NormalOptions& options, std::vector<std::string>& remarks)
 {
     const Split split = splitLights(lights);
-    if (lights.size() < kFewestLights || conditionOf(split.keptLights) > kWorstCondition || sample.pixelCount() == 0) {
-        remarks.push_back(fmt::format("auto: consensus, since {} lights are too few to hold any out", lights.size()));
+    const bool few = lights.size() < kFewestLights;
+    if (few || conditionOf(split.keptLights) > kWorstCondition || sample.pixelCount() == 0) {
+        remarks.push_back(
+            few ? fmt::format("auto: consensus, since {} lights are too few to hold any out", lights.size())
+                : "auto: consensus, since the lights lie too nearly in one plane to hold any out");
         return NormalMethod::consensus;
     }
-    const Intensities few = everyNthPixel(sample);
+    const Intensities thinned = everyNthPixel(sample);
     NormalMethod best = kCandidates[0];
     double bestError = 0;
     std::string errors;
     for (const NormalMethod method : kCandidates) {
-        const double error = heldOutError(method, few, lights, split, options);
+        const double error = heldOutError(method, thinned, lights, split, options);
         errors += fmt::format("{}{} {:.4f}", errors.empty() ? "" : ", ", nameOf(method), error);
         if (method == kCandidates[0] || isBetter(method, error, bestError)) {
             best = method;

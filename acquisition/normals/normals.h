@@ -2,6 +2,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -60,6 +61,8 @@ NormalEstimator makeConsensusEstimator(const std::vector<Light>& lights, const N
 struct NormalReport {
     NormalMethod method = NormalMethod::automatic; // the one that was taken
     std::vector<std::string> remarks;              // a line each
+    // Share of the mean, see lambertian_residual.h; NaN where nothing is lit.
+    double lambertianResidual = std::numeric_limits<double>::quiet_NaN();
 };
 
 // `sample`: pixels from all over the object, for methods that choose by it (auto, exemplar). auto is decided here.

@@ -64,16 +64,16 @@ void fillPixels(const ExemplarSetup& setup, const Intensities& intensities, cons
     const Exemplar& last =
         setup.model.reestimated.empty() ? setup.model.exemplars.front() : setup.model.reestimated.back();
     parallelFor(block.pixels.size(), kPixelsPerTask, setup.threads, [&](size_t first, size_t end) {
-        std::vector<float> predicted(n);
+        std::vector<float> predicted(last.fine.stride);
         for (size_t p = first; p < end; ++p) {
-            const float* column = last.fine.column(last.fine.rowOf(result.normals[p]));
-            for (size_t i = 0; i < n; ++i) {
-                predicted[i] = result.scales[p] * column[i];
-            }
+            last.fine.mixColumns(result.normals[p], predicted.data());
+            std::transform(predicted.begin(), predicted.end(), predicted.begin(),
+                           [&](float v) { return v * result.scales[p]; });
             const auto verdicts = std::span<const Verdict>(block.verdicts).subspan(p * n, n);
             const bool found = result.scales[p] > 0;
             const float confidence =
-                found ? confidenceOf(intensities.ofPixel(p), predicted, verdicts, setup.lights) : 0.0f;
+                found ? confidenceOf(intensities.ofPixel(p), std::span(predicted).first(n), verdicts, setup.lights)
+                      : 0.0f;
             const auto used = std::count(verdicts.begin(), verdicts.end(), Verdict::used);
             block.pixels[p] = {found ? result.normals[p] : glm::vec3(0), result.scales[p], confidence,
                                static_cast<uint16_t>(used)};

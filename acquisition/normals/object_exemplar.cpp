@@ -71,11 +71,12 @@ std::vector<Verdict> judgeByExemplar(const Exemplar& exemplar, const Intensities
     const size_t n = intensities.lightCount;
     std::vector<Verdict> verdicts(intensities.pixelCount() * n);
     parallelFor(intensities.pixelCount(), 512, threads, [&](size_t first, size_t last) {
-        std::vector<float> predicted(n);
+        std::vector<float> predicted(exemplar.fine.stride);
         for (size_t p = first; p < last; ++p) {
-            const float* column = exemplar.fine.column(exemplar.fine.rowOf(result.normals[p]));
-            std::transform(column, column + n, predicted.begin(), [&](float v) { return v * result.scales[p]; });
-            judge(intensities.ofPixel(p), predicted, std::span(verdicts).subspan(p * n, n));
+            exemplar.fine.mixColumns(result.normals[p], predicted.data());
+            std::transform(predicted.begin(), predicted.end(), predicted.begin(),
+                           [&](float v) { return v * result.scales[p]; });
+            judge(intensities.ofPixel(p), std::span(predicted).first(n), std::span(verdicts).subspan(p * n, n));
         }
     });
     return verdicts;

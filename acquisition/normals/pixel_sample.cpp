@@ -21,21 +21,32 @@ void addPixels(const Observations& block, size_t firstNumber, size_t step, Obser
     }
 }
 
+size_t stepOver(size_t pixels)
+{
+    return std::max<size_t>(1, (pixels + kMostPixels - 1) / kMostPixels);
+}
+
 } // namespace
+
+Observations evenSample(const Observations& whole)
+{
+    Observations sample;
+    sample.lightCount = whole.lightCount;
+    addPixels(whole, 0, stepOver(whole.pixels.size()), sample);
+    return sample;
+}
 
 Observations samplePixels(const Capture& capture, const Observations& first, int threads, size_t byteBudget)
 {
-    const size_t step = std::max<size_t>(1, (capture.maskPixels + kMostPixels - 1) / kMostPixels);
+    if (first.pixels.size() == capture.maskPixels) {
+        return evenSample(first);
+    }
     Observations sample;
     sample.lightCount = first.lightCount;
-    if (first.pixels.size() == capture.maskPixels) {
-        addPixels(first, 0, step, sample);
-        return sample;
-    }
     ObservationReader reader(capture, threads, byteBudget);
     Observations block;
     for (size_t seen = 0; reader.next(block); seen += block.pixels.size()) {
-        addPixels(block, seen, step, sample);
+        addPixels(block, seen, stepOver(capture.maskPixels), sample);
     }
     return sample;
 }

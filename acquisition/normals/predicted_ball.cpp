@@ -33,6 +33,51 @@ int PredictedBall::rowOf(const glm::vec3& normal) const
     return rows[static_cast<size_t>(y) * size + x];
 }
 
+glm::vec2 ballTexelOf(const glm::vec3& normal, int size)
+{
+    return {(normal.x + 1) / 2 * size - 0.5f, (1 - normal.y) / 2 * size - 0.5f};
+}
+
+glm::vec3 normalOfBallTexel(const glm::vec2& texel, int size)
+{
+    const glm::vec2 disc(2 * (texel.x + 0.5f) / size - 1, 1 - 2 * (texel.y + 0.5f) / size);
+    return {disc, std::sqrt(std::max(0.0f, 1 - glm::dot(disc, disc)))};
+}
+
+std::optional<BallCell> findBallCell(const PredictedBall& ball, const glm::vec2& texel)
+{
+    const int x = static_cast<int>(std::floor(texel.x)), y = static_cast<int>(std::floor(texel.y));
+    if (x < 0 || y < 0 || x + 1 >= ball.size || y + 1 >= ball.size) {
+        return {};
+    }
+    BallCell cell;
+    for (int i = 0; i < 4; ++i) {
+        const int row = ball.rows[static_cast<size_t>(y + i / 2) * ball.size + x + i % 2];
+        if (row < 0) {
+            return {};
+        }
+        cell.columns[i] = ball.column(row);
+    }
+    cell.u = texel.x - static_cast<float>(x);
+    cell.v = texel.y - static_cast<float>(y);
+    return cell;
+}
+
+void PredictedBall::mixColumns(const glm::vec3& normal, float* mixed) const
+{
+    const std::optional<BallCell> cell = findBallCell(*this, ballTexelOf(normal, size));
+    if (!cell) {
+        std::copy_n(column(rowOf(normal)), stride, mixed);
+        return;
+    }
+    const float a = (1 - cell->u) * (1 - cell->v), b = cell->u * (1 - cell->v), c = (1 - cell->u) * cell->v,
+                d = cell->u * cell->v;
+    for (size_t i = 0; i < stride; ++i) {
+        mixed[i] =
+            a * cell->columns[0][i] + b * cell->columns[1][i] + c * cell->columns[2][i] + d * cell->columns[3][i];
+    }
+}
+
 PredictedBall makePredictedBall(int size, const std::vector<glm::vec3>& directions, const GreyReflectance& reflectance,
                                 int threads)
 {

@@ -1,5 +1,7 @@
 #pragma once
+#include <array>
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include <glm/vec2.hpp>
@@ -25,7 +27,23 @@ struct PredictedBall {
     const float* column(int row) const { return &columns[row * stride]; }
     // The row whose texel holds the normal, or its nearest inside the rim.
     int rowOf(const glm::vec3& normal) const;
+    // The four columns around a normal, bilinearly mixed; rowOf's at the rim, where one of them is missing. `mixed` has
+    // stride floats.
+    void mixColumns(const glm::vec3& normal, float* mixed) const;
 };
+
+// A place on the ball between four columns.
+struct BallCell {
+    std::array<const float*, 4> columns{}; // of the texels (x, y), (x + 1, y), (x, y + 1), (x + 1, y + 1)
+    float u = 0, v = 0;                    // from x and y on, [0, 1]
+};
+
+// Texel coordinates, (0, 0) at the centre of the top left texel, and back.
+glm::vec2 ballTexelOf(const glm::vec3& normal, int size);
+glm::vec3 normalOfBallTexel(const glm::vec2& texel, int size);
+
+// Empty at the rim.
+std::optional<BallCell> findBallCell(const PredictedBall& ball, const glm::vec2& texel);
 
 PredictedBall makePredictedBall(int size, const std::vector<glm::vec3>& directions, const GreyReflectance& reflectance,
                                 int threads);

@@ -1,6 +1,7 @@
 #include "engine/scene/brdf_models.h"
 
-#include "shared/glsl.h"
+#include "engine/scene/rgl_brdf.h"
+#include "shared/brdf_coords.h"
 
 namespace nacre {
 namespace {
@@ -124,6 +125,25 @@ vec3 evaluateModel(const SgdModel& m, const Configuration& c)
     return f;
 }
 
+template <class Parametric> vec3 evaluateModel(const Parametric& m, const vec3& n, const vec3& l, const vec3& v)
+{
+    return evaluateModel(m, configurationOf(n, l, v));
+}
+
+vec3 evaluateModel(const std::shared_ptr<const BrdfTable>& table, const vec3& n, const vec3& l, const vec3& v)
+{
+    return evaluateTable(*table, n, l, v).value;
+}
+
+vec3 evaluateModel(const std::shared_ptr<const RglBrdf>& material, const vec3& n, const vec3& l, const vec3& v)
+{
+    const vec3 x = anyPerpendicular(n), y = cross(n, x);
+    return material->evaluate(vec3(dot(l, x), dot(l, y), dot(l, n)), vec3(dot(v, x), dot(v, y), dot(v, n)));
+}
+
+// Rounding may put a texel at the domain's edge a little beyond it.
+constexpr float kDomainTolerance = 1e-4f; // radians
+
 } // namespace
 
 vec3 evaluate(const BrdfModel& model, const vec3& n, const vec3& l, const vec3& v)
@@ -131,8 +151,30 @@ vec3 evaluate(const BrdfModel& model, const vec3& n, const vec3& l, const vec3& 
     if (dot(n, l) <= 0.0f || dot(n, v) <= 0.0f) {
         return vec3(0);
     }
-    Configuration c = configurationOf(n, l, v);
-    return std::visit([&](const auto& m) { return evaluateModel(m, c); }, model);
+    return std::visit([&](const auto& m) { return evaluateModel(m, n, l, v); }, model);
+}
+
+BrdfValue evaluateCovered(const BrdfModel& model, const vec3& n, const vec3& l, const vec3& v)
+{
+    if (dot(n, l) <= 0.0f || dot(n, v) <= 0.0f) {
+        return {vec3(0), 0};
+    }
+    const BrdfTable* table = tableOf(model);
+    if (!table) {
+        return {evaluate(model, n, l, v), 1};
+    }
+    BrdfValue value = evaluateTable(*table, n, l, v);
+    if (table->domain.coordinates == kHalfDifference &&
+        halfDifferenceFromDirections(n, l, v).thetaD > table->domain.thetaDMax + kDomainTolerance) {
+        value.confidence = 0;
+    }
+    return value;
+}
+
+const BrdfTable* tableOf(const BrdfModel& model)
+{
+    const auto* table = std::get_if<std::shared_ptr<const BrdfTable>>(&model);
+    return table ? table->get() : nullptr;
 }
 
 } // namespace nacre

@@ -1,14 +1,19 @@
 #pragma once
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <variant>
 #include <vector>
 
 #include <glm/vec3.hpp>
 
+#include "engine/scene/brdf_table.h"
+
 namespace nacre {
 
-// Parametric BRDFs: f(n, l, v) in 1/sr per channel without the cosine, 0 below either horizon.
+class RglBrdf;
+
+// BRDFs, parametric and measured: f(n, l, v) in 1/sr per channel without the cosine, 0 below either horizon.
 
 struct LambertGgx {
     glm::vec3 diffuse{0.5f};   // albedo; f = diffuse / pi
@@ -31,9 +36,17 @@ struct SgdModel {
     glm::vec3 rhoD, rhoS, alpha, p, F0, F1, kap, lambda, c, k, theta0;
 };
 
-using BrdfModel = std::variant<LambertGgx, AbcModel, SgdModel>;
+using BrdfModel =
+    std::variant<LambertGgx, AbcModel, SgdModel, std::shared_ptr<const BrdfTable>, std::shared_ptr<const RglBrdf>>;
 
 glm::vec3 evaluate(const BrdfModel& model, const glm::vec3& n, const glm::vec3& l, const glm::vec3& v);
+
+// The same with its coverage: 0 below either horizon and beyond a table's domain, within it the table's confidence;
+// 1 everywhere else.
+BrdfValue evaluateCovered(const BrdfModel& model, const glm::vec3& n, const glm::vec3& l, const glm::vec3& v);
+
+// The table that the model is; null for the others.
+const BrdfTable* tableOf(const BrdfModel& model);
 
 struct NamedBrdf {
     std::string name;

@@ -14,13 +14,6 @@ namespace {
 
 constexpr const char* kShapeAttribute = "nacre:brdfTable";
 
-// One line of metadata: version, shape and domain.
-std::string describeShape(const BrdfTable& table)
-{
-    return fmt::format("1 {} {} {} {} {:.9g}", table.size.x, table.size.y, table.size.z,
-                       table.domain.coordinates == kNatural ? "natural" : "half-difference", table.domain.thetaDMax);
-}
-
 BrdfTable tableOfShape(const std::filesystem::path& file, const std::string& shape)
 {
     std::istringstream words(shape);
@@ -62,6 +55,12 @@ Image loadAtlas(const std::filesystem::path& file, const glm::ivec3& size, int c
 }
 
 } // namespace
+
+std::string describeShape(const BrdfTable& table)
+{
+    return fmt::format("1 {} {} {} {} {:.9g}", table.size.x, table.size.y, table.size.z,
+                       table.domain.coordinates == kNatural ? "natural" : "half-difference", table.domain.thetaDMax);
+}
 
 LightView BrdfTable::directions(int i, int j, int k) const
 {

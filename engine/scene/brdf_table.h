@@ -1,5 +1,6 @@
 #pragma once
 #include <filesystem>
+#include <string>
 #include <vector>
 
 #include <glm/vec3.hpp>
@@ -44,6 +45,9 @@ BrdfValue sampleTable(const BrdfTable& table, const glm::vec3& unit);
 
 // f(n, l, v) of the table; l and v above the horizon of n, or the border's value is returned.
 BrdfValue evaluateTable(const BrdfTable& table, const glm::vec3& n, const glm::vec3& l, const glm::vec3& v);
+
+// Version, shape and domain on one line, as files' metadata have it (docs/formats.md).
+std::string describeShape(const BrdfTable& table);
 
 // One EXR of size.z slices side by side (size.x * size.z by size.y), RGB = f, A = confidence; shape and domain in its
 // metadata (docs/formats.md).

@@ -10,6 +10,7 @@
 
 #include "engine/scene/error.h"
 #include "engine/scene/image.h"
+#include "engine/scene/jpeg_end.h"
 #include "engine/scene/png_chunks.h"
 #include "engine/scene/whole_file.h"
 #include "shared/shading.h"
@@ -50,6 +51,9 @@ std::unique_ptr<OIIO::ImageInput> openInput(const fs::path& file)
     auto input = OIIO::ImageInput::open(file.string(), &hints);
     if (!input) {
         throw Error(file, "cannot be read: " + firstLine(OIIO::geterror()), kReadable);
+    }
+    if (std::string_view(input->format_name()) == "jpeg" && !isCompleteJpeg(file)) {
+        throw Error(file, "is cut off before its end", "a whole, undamaged picture");
     }
     return input;
 }

@@ -10,12 +10,15 @@
 #include <fmt/format.h>
 
 #include "engine/scene/error.h"
+#include "engine/scene/merl_file.h"
+#include "engine/scene/rgl_brdf.h"
 
 namespace nacre {
 namespace {
 
 constexpr const char* kForms =
-    "lambert:R,G,B, ggx:diffuse=R,G,B;specular=R,G,B;alpha=A, merl-abc:NAME or merl-sgd:NAME";
+    "lambert:R,G,B, ggx:diffuse=R,G,B;specular=R,G,B;alpha=A, merl-abc:NAME, merl-sgd:NAME, merl:FILE.binary, "
+    "rgl:FILE.bsdf, table:FILE.exr, or such a file";
 
 [[noreturn]] void refuse(const std::string& specification, const std::string& wrong, const std::string& expected)
 {
@@ -137,6 +140,31 @@ BrdfModel parseFit(const std::string& specification, const std::string& kind, co
     return findFit(specification, loadSgdFits(fitsFolder / "merl_sgd_params.csv"), name);
 }
 
+// The kind of a measured material that `specification` says or that its file's extension tells; else empty.
+std::string kindOfFile(const std::string& specification, const std::string& kind)
+{
+    constexpr std::pair<const char*, const char*> kKinds[] = {{"merl", ".binary"}, {"rgl", ".bsdf"}, {"table", ".exr"}};
+    for (const auto& [name, extension] : kKinds) {
+        if (kind == name) {
+            return name;
+        }
+    }
+    for (const auto& [name, extension] : kKinds) {
+        if (std::filesystem::path(specification).extension() == extension) {
+            return name;
+        }
+    }
+    return "";
+}
+
+BrdfModel loadMeasured(const std::string& kind, const std::filesystem::path& file)
+{
+    if (kind == "rgl") {
+        return std::make_shared<const RglBrdf>(file);
+    }
+    return std::make_shared<const BrdfTable>(kind == "merl" ? loadMerl(file) : loadBrdfTable(file));
+}
+
 } // namespace
 
 NamedBrdf parseMaterial(const std::string& specification, const std::filesystem::path& fitsFolder)
@@ -153,7 +181,15 @@ NamedBrdf parseMaterial(const std::string& specification, const std::filesystem:
     if (kind == "merl-abc" || kind == "merl-sgd") {
         return {specification, parseFit(specification, kind, rest, fitsFolder)};
     }
-    refuse(specification, fmt::format("knows no model \"{}\"", kind), kForms);
+    const std::string measured = kindOfFile(specification, kind);
+    if (measured.empty()) {
+        refuse(specification, fmt::format("knows no model \"{}\"", kind), kForms);
+    }
+    const std::filesystem::path file = kind == measured ? rest : specification;
+    if (file.empty()) {
+        refuse(specification, "names no file", kForms);
+    }
+    return {specification, loadMeasured(measured, file)};
 }
 
 std::filesystem::path fitsFolderFrom(const std::filesystem::path& option)

@@ -16,6 +16,9 @@ namespace {
 
 // Normals shorter than this in n = 2 v - 1 are no normals but a flat background.
 constexpr float kShortestNormal = 0.5f;
+// A normal map's lengths are about 1, but for 8-bit codes and filtering; a photograph's are anything.
+constexpr float kUnitTolerance = 0.1f;
+constexpr float kLeastUnitShare = 0.5f;
 
 bool isFloat(const ImageHeader& header)
 {
@@ -33,7 +36,7 @@ NormalMap loadNormalMap(const std::filesystem::path& file, NormalY normalY)
     }
     const bool coded = !isFloat(header);
     NormalMap map(image.width, image.height);
-    size_t found = 0;
+    size_t found = 0, unit = 0;
     for (size_t i = 0; i < map.normals.size(); ++i) {
         const float* p = &image.values[i * image.channels];
         const glm::vec3 stored(p[0], p[1], p[2]);
@@ -55,9 +58,16 @@ NormalMap loadNormalMap(const std::filesystem::path& file, NormalY normalY)
         map.normals[i] = n / size;
         map.confidence[i] = std::min(confidence, 1.0f);
         ++found;
+        unit += std::abs(size - 1) < kUnitTolerance;
     }
     if (found == 0) {
         throw Error(file, "holds no normal", "a normal map: float x, y, z or integers n = 2 v - 1, black = no data");
+    }
+    if (static_cast<float>(unit) < kLeastUnitShare * static_cast<float>(found)) {
+        throw Error(file,
+                    fmt::format("is no normal map: {} has a length of about 1 in {:.0f} % of its pixels",
+                                coded ? "2 v - 1" : "x, y, z", 100.0 * static_cast<double>(unit) / found),
+                    "unit normals: float x, y, z or integers n = 2 v - 1");
     }
     return map;
 }

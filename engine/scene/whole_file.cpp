@@ -100,10 +100,15 @@ void writeTextFile(const fs::path& file, const std::string& text)
 
 std::string readTextFile(const fs::path& file)
 {
+    return readWholeFile(file, "a text file");
+}
+
+std::string readWholeFile(const fs::path& file, const std::string& expected)
+{
     std::ifstream stream(file, std::ios::binary);
     std::ostringstream text;
     if (!stream || fs::is_directory(file)) {
-        throw Error(file, "cannot be read", "a text file");
+        throw Error(file, "cannot be read", expected);
     }
     text << stream.rdbuf();
     return text.str();

@@ -28,5 +28,7 @@ private:
 void writeWholeFile(const std::filesystem::path& file, std::span<const unsigned char> bytes);
 void writeTextFile(const std::filesystem::path& file, const std::string& text);
 std::string readTextFile(const std::filesystem::path& file);
+// The bytes of a file; the error says that `expected` was wanted.
+std::string readWholeFile(const std::filesystem::path& file, const std::string& expected);
 
 } // namespace nacre

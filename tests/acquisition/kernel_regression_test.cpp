@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "acquisition/brdf/bake.h"
+#include "acquisition/brdf/kernel_regression.h"
 #include "engine/scene/error.h"
 
 namespace nacre {
@@ -27,7 +28,7 @@ BrdfSamples scatteredSamples(size_t count, int coordinates = kHalfDifference)
 TEST(KernelRegression, ConstantDataInterpolateToTheConstant)
 {
     const BrdfSamples samples = scatteredSamples(500);
-    const KernelRegression regression(samples, {});
+    const KernelRegression regression(samples, 25);
     for (const glm::vec3& unit : scatteredSamples(64).unit) {
         EXPECT_LT(glm::length(regression.evaluate(1.0f - unit).value - glm::vec3(0.3f, 0.2f, 0.1f)), 1e-6f);
     }
@@ -39,9 +40,9 @@ TEST(KernelRegression, AQueryAtASampleWithOneNeighbourReturnsIt)
     for (size_t i = 0; i < samples.size(); ++i) {
         samples.values[i] = glm::vec3(static_cast<float>(i));
     }
-    const KernelRegression regression(samples, {.k = 1});
+    const KernelRegression regression(samples, 1);
     for (size_t i = 0; i < samples.size(); ++i) {
-        const RegressionValue value = regression.evaluate(samples.unit[i]);
+        const InterpolatedValue value = regression.evaluate(samples.unit[i]);
         EXPECT_FLOAT_EQ(value.value.x, static_cast<float>(i));
         EXPECT_EQ(value.nearest, 0);
     }
@@ -55,15 +56,14 @@ TEST(KernelRegression, DegenerateSamplesAreDefined)
     }
     const glm::vec3 expected(0.3f, 0.2f, 0.1f);
     for (const glm::vec3 query : {glm::vec3(0.5f), glm::vec3(0), glm::vec3(1)}) {
-        EXPECT_LT(glm::length(KernelRegression(same, {.k = 25}).evaluate(query).value - expected), 1e-6f);
-        EXPECT_LT(glm::length(KernelRegression(scatteredSamples(1), {.k = 25}).evaluate(query).value - expected),
-                  1e-6f);
+        EXPECT_LT(glm::length(KernelRegression(same, 25).evaluate(query).value - expected), 1e-6f);
+        EXPECT_LT(glm::length(KernelRegression(scatteredSamples(1), 25).evaluate(query).value - expected), 1e-6f);
         const BrdfSamples few = scatteredSamples(10);
-        EXPECT_LT(glm::length(KernelRegression(few, {.k = 25}).evaluate(query).value - expected), 1e-6f);
+        EXPECT_LT(glm::length(KernelRegression(few, 25).evaluate(query).value - expected), 1e-6f);
     }
     const BrdfSamples none = scatteredSamples(0);
-    EXPECT_THROW(KernelRegression(none, {}), Error);
-    EXPECT_THROW(KernelRegression(same, {.k = 0}), Error);
+    EXPECT_THROW(KernelRegression(none, 25), Error);
+    EXPECT_THROW(makeInterpolant(same, {.k = 0}), Error);
 }
 
 TEST(KernelRegression, StaysWithinWhatTheNeighboursShow)
@@ -72,7 +72,7 @@ TEST(KernelRegression, StaysWithinWhatTheNeighboursShow)
     for (size_t i = 0; i < samples.size(); ++i) {
         samples.values[i] = glm::vec3(std::exp(-20 * samples.unit[i].x));
     }
-    const KernelRegression regression(samples, {.k = 5});
+    const KernelRegression regression(samples, 5);
     for (const glm::vec3& unit : scatteredSamples(100).unit) {
         const float value = regression.evaluate(1.0f - unit).value.x;
         EXPECT_GE(value, 0);

@@ -317,7 +317,7 @@ TEST_F(BadInputTest, UsageErrorsAreOneLineThatNamesTheHelp)
         {{}, {"no command", "nacre --help"}},
         {{"bogus"}, {"'bogus' is no command", "nacre --help"}},
         {{"--bogus"}, {"'--bogus'", "nacre --help"}},
-        {{"render"}, {"SURFACE is required", "nacre render --help"}},
+        {{"render"}, {"--output is required", "nacre render --help"}},
         {{"render", "s.nacre"}, {"--output is required", "nacre render --help"}},
         {{"render", "s.nacre", "-o", "x.png", "--bogus"}, {"--bogus", "nacre render --help"}},
         {{"render", "s.nacre", "-o", "x.png", "--exposure", "abc"}, {"--exposure = abc", "nacre render --help"}},

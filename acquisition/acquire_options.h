@@ -1,0 +1,35 @@
+#pragma once
+#include <functional>
+#include <string>
+
+#include "acquisition/brdf/bake.h"
+#include "acquisition/brdf/brdf_samples.h"
+#include "acquisition/capture/observations.h"
+#include "acquisition/lights/lights.h"
+#include "acquisition/lights/well_spread_lights.h"
+#include "acquisition/normals/normals.h"
+
+namespace nacre {
+
+struct AcquireOptions {
+    CalibrationOptions calibration;
+    LightChoice lights; // photographs that are not chosen are not read
+    NormalOptions normals;
+    SampleOptions samples;
+    InterpolationOptions interpolation;
+    BakeOptions bake;
+    size_t byteBudget = ObservationReader::kDefaultByteBudget;
+    // Photographs that disagree with the rest, and irradiances that nobody gave.
+    bool correctIntensities = true;
+    bool keepVerdicts = false; // of every observation, for pictures of them
+
+    void setThreads(int threads)
+    {
+        calibration.threads = normals.threads = samples.threads = interpolation.threads = bake.threads = threads;
+    }
+};
+
+// Called with the stage's name and its finished share in [0, 1].
+using Progress = std::function<void(const std::string&, double)>;
+
+} // namespace nacre

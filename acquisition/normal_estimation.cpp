@@ -1,0 +1,193 @@
+#include "acquisition/normal_estimation.h"
+
+#include "acquisition/normals/pixel_sample.h"
+#include "acquisition/normals/smooth_fill.h"
+
+namespace nacre {
+
+namespace {
+
+void storeNormals(const Observations& block, const NormalBlock& estimated, bool keepVerdicts, NormalEstimate& result)
+{
+    const size_t n = block.lightCount;
+    for (size_t p = 0; p < block.pixels.size(); ++p) {
+        const PixelNormal& pixel = estimated.pixels[p];
+        result.normals.normals[block.pixels[p]] = pixel.confidence > 0 ? pixel.normal : glm::vec3(0);
+        result.normals.confidence[block.pixels[p]] = pixel.confidence;
+        result.pixelsWithoutNormal += pixel.confidence <= 0;
+        for (size_t i = 0; i < n; ++i) {
+            VerdictCounts& counts = result.verdicts[i];
+            switch (estimated.verdicts[p * n + i]) {
+            case Verdict::used:
+                ++counts.used;
+                break;
+            case Verdict::shadow:
+                ++counts.shadow;
+                break;
+            case Verdict::highlight:
+                ++counts.highlight;
+                break;
+            case Verdict::saturated:
+                ++counts.saturated;
+                break;
+            }
+        }
+    }
+    if (keepVerdicts) {
+        result.pixels.insert(result.pixels.end(), block.pixels.begin(), block.pixels.end());
+        result.everyVerdict.insert(result.everyVerdict.end(), estimated.verdicts.begin(), estimated.verdicts.end());
+    }
+}
+
+std::vector<std::string> namesOf(const std::vector<Photograph>& photographs)
+{
+    std::vector<std::string> names;
+    for (const Photograph& photograph : photographs) {
+        names.push_back(photograph.name);
+    }
+    return names;
+}
+
+// All lights are calibrated before any is chosen, so that irradiances do not depend on the choice.
+Capture calibrateAndChoose(const Capture& capture, const AcquireOptions& options, NormalEstimate& result)
+{
+    const Rig rig = calibrateLights(capture, options.calibration);
+    result.given = chosenLights(rig.lights, options.lights);
+    result.rig = selectLights(rig, result.given);
+    requireSpanningLights(result.rig.lights, capture.folder);
+    return selectPhotographs(capture, result.given);
+}
+
+bool areIrradiancesKnown(const Capture& capture)
+{
+    return capture.irradianceGiven || capture.diffuseSphere.has_value();
+}
+
+// Takes over what was found out, and which photographs are left.
+void keepPrepared(const Capture& capture, const PreparedNormals& prepared, NormalEstimate& result)
+{
+    for (size_t i = 0, next = 0; i < capture.photographs.size(); ++i) {
+        if (next < prepared.agreeing.size() && prepared.agreeing[next] == i) {
+            ++next;
+        } else {
+            result.leftOut.push_back(capture.photographs[i].name);
+        }
+    }
+    std::vector<size_t> given;
+    for (const size_t i : prepared.agreeing) {
+        given.push_back(result.given[i]);
+    }
+    result.given = given;
+    result.rig = selectLights(result.rig, prepared.agreeing);
+    result.rig.lights = prepared.lights;
+    result.report = prepared.report;
+}
+
+// No normals, so no samples, from pixels that are to be smoothed over.
+void dropMarked(const Capture& capture, const Observations& block, NormalBlock& normals)
+{
+    for (size_t p = 0; p < block.pixels.size() && !capture.smooth.empty(); ++p) {
+        if (capture.smooth[block.pixels[p]]) {
+            normals.pixels[p] = PixelNormal{};
+        }
+    }
+}
+
+void smoothMarked(const Capture& capture, NormalEstimate& result)
+{
+    if (!capture.smooth.empty()) {
+        result.pixelsSmoothed = fillSmoothly(result.normals, capture.smooth, capture.mask);
+        result.pixelsWithoutNormal -= result.pixelsSmoothed;
+    }
+}
+
+} // namespace
+
+CaptureWalk::CaptureWalk(const Capture& capture, const AcquireOptions& options, const Progress& progress,
+                         NormalEstimate& result)
+    : options_(options), progress_(progress), result_(result), clock_(result.times)
+{
+    progress("lights", 0);
+    given_ = clock_.time("lights", [&] { return calibrateAndChoose(capture, options, result); });
+}
+
+void CaptureWalk::prepare(const Observations& first)
+{
+    Observations sample = samplePixels(given_, first, options_.normals.threads, options_.byteBudget);
+    prepared_ = prepareNormals(
+        {std::move(sample), namesOf(given_.photographs), areIrradiancesKnown(given_), result_.rig.lights}, options_);
+    keepPrepared(given_, prepared_, result_);
+    result_.verdicts.resize(prepared_.lights.size());
+}
+
+NormalBlock CaptureWalk::normalsOf(const Observations& block)
+{
+    NormalBlock normals =
+        clock_.time("normals", [&] { return estimateBlock(prepared_.estimator, block, prepared_.lights); });
+    dropMarked(given_, block, normals);
+    return normals;
+}
+
+void CaptureWalk::eachBlock(ObservationReader& reader, Observations& block, bool more,
+                            const std::function<void(const Observations&)>& visit)
+{
+    for (size_t seen = 0; more; more = clock_.time("reading", [&] { return reader.next(block); })) {
+        progress_("normals", static_cast<double>(seen) / static_cast<double>(given_.maskPixels));
+        seen += block.pixels.size();
+        if (prepared_.agreeing.size() < block.lightCount) {
+            block = selectLights(block, prepared_.agreeing);
+        }
+        visit(block);
+    }
+}
+
+void CaptureWalk::estimate(const Visitor& visit)
+{
+    result_.normals = NormalMap(given_.width, given_.height);
+    ObservationReader reader(given_, options_.normals.threads, options_.byteBudget);
+    Observations block;
+    progress_("reading", 0);
+    const bool more = clock_.time("reading", [&] { return reader.next(block); });
+    progress_("choosing", 0);
+    clock_.time("choosing", [&] { prepare(block); });
+    eachBlock(reader, block, more, [&](const Observations& seen) {
+        NormalBlock normals = normalsOf(seen);
+        storeNormals(seen, normals, options_.keepVerdicts, result_);
+        visit(seen, normals);
+        wholeNormals_ = std::move(normals);
+        if (seen.pixels.size() == given_.maskPixels) {
+            whole_ = seen;
+        }
+    });
+    smoothMarked(given_, result_);
+}
+
+void CaptureWalk::revisit(const Visitor& visit)
+{
+    if (!whole_.pixels.empty()) {
+        visit(whole_, wholeNormals_);
+        return;
+    }
+    revisit([&](const Observations& block) { visit(block, normalsOf(block)); });
+}
+
+void CaptureWalk::revisit(const std::function<void(const Observations&)>& visit)
+{
+    if (!whole_.pixels.empty()) {
+        visit(whole_);
+        return;
+    }
+    ObservationReader reader(given_, options_.normals.threads, options_.byteBudget);
+    Observations block;
+    const bool more = clock_.time("reading", [&] { return reader.next(block); });
+    eachBlock(reader, block, more, visit);
+}
+
+NormalEstimate estimateCaptureNormals(const Capture& capture, const AcquireOptions& options, const Progress& progress)
+{
+    NormalEstimate result;
+    CaptureWalk(capture, options, progress, result).estimate([](const Observations&, const NormalBlock&) {});
+    return result;
+}
+
+} // namespace nacre

@@ -1,0 +1,86 @@
+#include "acquisition/prepared_normals.h"
+
+#include <algorithm>
+
+#include "acquisition/normals/discordant_photographs.h"
+#include "acquisition/normals/intensity_refinement.h"
+#include "acquisition/normals/lambertian_residual.h"
+
+namespace nacre {
+
+namespace {
+
+// All entries but those of the discordant photographs.
+std::vector<size_t> agreeingPhotographs(const std::vector<DiscordantPhotograph>& discordant, size_t count)
+{
+    std::vector<size_t> agreeing;
+    for (size_t i = 0; i < count; ++i) {
+        if (std::none_of(discordant.begin(), discordant.end(), [&](const auto& d) { return d.index == i; })) {
+            agreeing.push_back(i);
+        }
+    }
+    return agreeing;
+}
+
+std::vector<std::string> selected(const std::vector<std::string>& names, const std::vector<size_t>& chosen)
+{
+    std::vector<std::string> result;
+    for (const size_t i : chosen) {
+        result.push_back(names[i]);
+    }
+    return result;
+}
+
+// Leaves out photographs that cannot be reconciled with the others, the sample's too, and corrects irradiances by what
+// the rest say.
+void reconcilePhotographs(const CaptureSample& capture, const AcquireOptions& options, Observations& sample,
+                          PreparedNormals& prepared)
+{
+    if (!options.correctIntensities || !canCompare(sample)) {
+        return;
+    }
+    std::vector<std::string> names = capture.photographs, remarks;
+    PhotographRatios ratios = estimateIntensityRatios(sample, prepared.lights, options.normals);
+    const std::vector<DiscordantPhotograph> discordant = findDiscordant(ratios, prepared.lights);
+    if (!discordant.empty()) {
+        remarks.push_back(describeDiscordant(discordant, ratios, names));
+        prepared.agreeing = agreeingPhotographs(discordant, names.size());
+        sample = selectLights(sample, prepared.agreeing);
+        prepared.lights = selectLights(prepared.lights, prepared.agreeing);
+        names = selected(names, prepared.agreeing);
+        ratios = estimateIntensityRatios(sample, prepared.lights, options.normals);
+    }
+    prepared.report.remarks = correctIntensities(ratios, names, capture.irradiancesKnown, prepared.lights);
+    prepared.report.remarks.insert(prepared.report.remarks.begin(), remarks.begin(), remarks.end());
+}
+
+} // namespace
+
+PreparedNormals prepareNormals(CaptureSample capture, const AcquireOptions& options)
+{
+    PreparedNormals prepared;
+    prepared.agreeing = agreeingPhotographs({}, capture.lights.size());
+    prepared.lights = capture.lights;
+    Observations& sample = capture.seen;
+    reconcilePhotographs(capture, options, sample, prepared);
+    for (const std::string& warning : warningsOf(prepared.lights)) {
+        prepared.report.remarks.push_back(warning);
+    }
+    prepared.report.lambertianResidual = lambertianResidual(sample, prepared.lights);
+    prepared.estimator =
+        makeNormalEstimator(intensitiesOf(sample, prepared.lights), prepared.lights, options.normals, prepared.report);
+    return prepared;
+}
+
+NormalBlock estimateBlock(const NormalEstimator& estimator, const Observations& block, const std::vector<Light>& lights)
+{
+    NormalBlock normals = estimator(intensitiesOf(block, lights));
+    for (size_t i = 0; i < block.saturated.size(); ++i) {
+        if (block.saturated[i]) {
+            normals.verdicts[i] = Verdict::saturated;
+        }
+    }
+    return normals;
+}
+
+} // namespace nacre

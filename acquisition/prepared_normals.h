@@ -1,0 +1,31 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "acquisition/acquire_options.h"
+
+namespace nacre {
+
+// Pixels from all over an object, and what is known of its photographs.
+struct CaptureSample {
+    Observations seen;
+    std::vector<std::string> photographs; // names, one per light
+    bool irradiancesKnown = false;
+    std::vector<Light> lights;
+};
+
+// How normals are to be estimated, once the photographs were compared with each other.
+struct PreparedNormals {
+    std::vector<size_t> agreeing; // photographs that are used
+    std::vector<Light> lights;    // of those, with irradiances corrected
+    NormalReport report;
+    NormalEstimator estimator;
+};
+
+// The steps from observations to normals, for observations that stand in no file as well; blocks hold the agreeing
+// photographs alone.
+PreparedNormals prepareNormals(CaptureSample capture, const AcquireOptions& options);
+NormalBlock estimateBlock(const NormalEstimator& estimator, const Observations& block,
+                          const std::vector<Light>& lights);
+
+} // namespace nacre

@@ -1,0 +1,23 @@
+#pragma once
+#include <filesystem>
+#include <string>
+
+#include "engine/scene/brdf_models.h"
+
+namespace nacre {
+
+// What `nacre brdf` can be asked about.
+struct BrdfSource {
+    std::string name;
+    std::string kind; // for the user: "MERL table", "microfacet model", ...
+    BrdfModel model;
+    bool relative = false; // f is 1/sr only up to one factor
+};
+
+// A specification as parseMaterial takes it, or NAME.nacre with the material `index` of that surface.
+BrdfSource loadBrdfSource(const std::string& specification, int index, const std::filesystem::path& fitsFolder);
+
+// The table that the source is, or its model tabulated over the whole domain.
+BrdfTable tableOfSource(const BrdfSource& source, int threads);
+
+} // namespace nacre

@@ -1,0 +1,11 @@
+#pragma once
+#include <filesystem>
+
+namespace nacre {
+
+// Whether a JPEG reaches its end-of-image marker (ITU-T T.81, 1992, B.1.1.3). libjpeg fills up a file that was cut off
+// with grey and only warns, which OpenImageIO does not pass on. What follows the marker, as some cameras append, does
+// not count. True for files that are no JPEG.
+bool isCompleteJpeg(const std::filesystem::path& file);
+
+} // namespace nacre

@@ -1,0 +1,33 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "acquisition/acquire.h"
+#include "evaluation/relighting_baselines.h"
+
+namespace nacre {
+
+// How well one method predicts photographs that it has not seen.
+struct PredictionScore {
+    std::string method;              // "nacre", or a baseline with the smoothing that served it best
+    double psnr = 0;                 // dB of radiance, colour, errors pooled over the photographs: radiancePsnr
+    double greyPsnr = 0;             // the same of grey pictures
+    std::vector<double> photographs; // dB of colour, one each
+};
+
+struct HeldOutEvaluation {
+    std::vector<std::string> photographs; // names of those held out
+    size_t given = 0;                     // how many the methods have seen
+    std::vector<PredictionScore> scores;  // nacre first
+    double seconds = 0;                   // of the acquisition
+    Acquisition acquisition;              // from the photographs given
+};
+
+// Acquires from the photographs that options.lights gives (its heldOutEvery must be positive) and predicts those held
+// out, with the irradiances that the whole capture gives them. Baselines see the same photographs; each is judged at
+// the smoothing that turns out best for it, which nobody would know beforehand. Radiance is divided by the 99th
+// percentile of all the mask's values and clipped to [0, 1]. Reads the whole capture at once.
+HeldOutEvaluation evaluateHeldOut(const Capture& capture, const AcquireOptions& options,
+                                  const std::vector<RelightingBaseline>& baselines, const Progress& progress);
+
+} // namespace nacre

@@ -1,0 +1,92 @@
+#include "evaluation/photographed_object.h"
+
+#include <fmt/format.h>
+
+#include "acquisition/capture/capture_window.h"
+#include "acquisition/capture/matlab_normals.h"
+#include "acquisition/lights/well_spread_lights.h"
+#include "acquisition/normals/pixel_sample.h"
+#include "engine/scene/error.h"
+#include "engine/scene/measures.h"
+
+namespace nacre {
+
+namespace {
+
+NormalMap rowOf(const NormalMap& map, const std::vector<uint32_t>& pixels)
+{
+    NormalMap row(static_cast<int>(pixels.size()), 1);
+    for (size_t p = 0; p < pixels.size(); ++p) {
+        row.normals[p] = map.normals[pixels[p]];
+        row.confidence[p] = map.confidence[pixels[p]];
+    }
+    return row;
+}
+
+} // namespace
+
+PhotographedObject photographedScene(const SynthScene& scene)
+{
+    PhotographedObject object;
+    object.name = "synthetic";
+    object.lights = scene.lights;
+    object.truth = rowOf(scene.view.normals, scene.view.seen);
+    const size_t n = scene.lights.size();
+    object.seen.lightCount = n;
+    object.seen.pixels = scene.view.seen;
+    object.seen.radiance.resize(object.seen.pixels.size() * n);
+    object.seen.saturated.assign(object.seen.radiance.size(), 0);
+    for (size_t i = 0; i < n; ++i) {
+        const Image radiance = objectRadiance(scene, scene.lights[i], scene.options.threads);
+        for (size_t p = 0; p < object.seen.pixels.size(); ++p) {
+            const uint32_t pixel = object.seen.pixels[p];
+            object.seen.radiance[p * n + i] = radiance.rgb(pixel % radiance.width, pixel / radiance.width);
+        }
+        object.photographs.push_back(fmt::format("light {}", i + 1));
+    }
+    return object;
+}
+
+PhotographedObject photographedCapture(const Capture& capture, const CalibrationOptions& calibration)
+{
+    if (capture.truthNormals.empty()) {
+        throw Error(capture.folder, "has no true normals", "Normal_gt.mat, or truthNormals in capture.json");
+    }
+    PhotographedObject object;
+    object.name = capture.name;
+    object.lights = calibrateLights(capture, calibration).lights;
+    object.irradiancesKnown = capture.irradianceGiven || capture.diffuseSphere.has_value();
+    for (const Photograph& photograph : capture.photographs) {
+        object.photographs.push_back(photograph.name);
+    }
+    ObservationReader reader(capture, calibration.threads);
+    Observations first;
+    reader.next(first);
+    object.seen = samplePixels(capture, first, calibration.threads, ObservationReader::kDefaultByteBudget);
+    const NormalMap truth = windowedNormals(loadTrueNormals(capture.truthNormals), capture, capture.truthNormals);
+    object.truth = rowOf(truth, object.seen.pixels);
+    return object;
+}
+
+PhotographedObject selectPhotographs(const PhotographedObject& object, const std::vector<size_t>& chosen)
+{
+    PhotographedObject result = object;
+    result.seen = selectLights(object.seen, chosen);
+    result.lights = selectLights(object.lights, chosen);
+    result.photographs.clear();
+    for (const size_t i : chosen) {
+        result.photographs.push_back(object.photographs[i]);
+    }
+    return result;
+}
+
+float valueQuantile(const Observations& seen, double q)
+{
+    std::vector<float> values;
+    for (const glm::vec3& radiance : seen.radiance) {
+        values.insert(values.end(), {radiance.x, radiance.y, radiance.z});
+    }
+    return quantile(values, q);
+}
+
+} // namespace nacre
