@@ -26,7 +26,7 @@ BrdfSamples estimateAndGather(CaptureWalk& walk, const Capture& capture, const A
         const std::vector<Light>& lights = result.estimate.rig.lights; // known once blocks come
         const double observations = static_cast<double>(capture.maskPixels) * static_cast<double>(lights.size());
         const double share = static_cast<double>(options.samples.most) / std::max(observations, 1.0);
-        samples.domain = capturedDomain(lights, options.bake.coordinates);
+        samples.domain = tableDomain(lights, options.bake);
         const std::vector<glm::vec3> factors = albedoFactors(block, normals, lights);
         storeAlbedo(block, factors, albedo);
         gatherSamples(block, normals, factors, lights, share, options.samples, samples, result.samples);
@@ -34,19 +34,38 @@ BrdfSamples estimateAndGather(CaptureWalk& walk, const Capture& capture, const A
     return samples;
 }
 
-BakedBrdf bake(const BrdfSamples& samples, const AcquireOptions& options, InterpolationChoice& choice)
+BrdfInterpolant interpolate(const BrdfSamples& samples, const AcquireOptions& options, InterpolationChoice& choice)
 {
     choice.options = options.interpolation;
     if (options.interpolation.automatic) {
         choice = chooseInterpolation(samples, options.interpolation);
     }
-    return bakeBrdf(samples, choice.options, options.bake);
+    return makeInterpolant(samples, choice.options);
 }
 
-Surface surfaceOf(const Capture& capture, const Rig& rig, NormalMap normals, Image albedo, BakedBrdf baked)
+// The material as small as it was asked for, or its full table. `scale`: of the table over the interpolant.
+Material compactMaterial(const std::string& name, BakedBrdf baked, const BrdfInterpolant& interpolant,
+                         const glm::vec3& scale, const LadderOptions& options, ModelLadder& ladder)
 {
-    normaliseAlbedo(albedo, baked.table);
-    Surface surface = transferredSurface(normals, {capture.name, std::move(baked.table), std::move(baked.coverage)});
+    if (options.isAsked()) {
+        const auto scaled = [&](const glm::vec3& unit) {
+            InterpolatedValue value = interpolant(unit);
+            value.value *= scale;
+            return value;
+        };
+        ladder = climbLadder(scaled, baked.table, options);
+    }
+    if (!ladder.taken) {
+        return {name, std::move(baked.table), std::move(baked.coverage), {}};
+    }
+    const CompactBrdf& model = ladder.steps[*ladder.taken].model;
+    return {name, expandedTable(model, baked.table), {}, model};
+}
+
+Surface surfaceOf(const Capture& capture, const Rig& rig, const NormalMap& normals, Image albedo,
+                  const Material& material)
+{
+    Surface surface = transferredSurface(normals, material);
     surface.albedo = std::move(albedo);
     surface.scale = rig.absolute ? RadianceScale::absolute : RadianceScale::relative;
     for (size_t i = 0; i < rig.lights.size(); ++i) {
@@ -66,7 +85,9 @@ Acquisition acquire(const Capture& capture, const AcquireOptions& options, const
     const BrdfSamples samples = estimateAndGather(walk, capture, options, albedo, result);
     progress("baking", 0);
     StageClock clock(estimate.times);
-    BakedBrdf baked = clock.time("baking", [&] { return bake(samples, options, result.interpolation); });
+    const BrdfInterpolant interpolant =
+        clock.time("baking", [&] { return interpolate(samples, options, result.interpolation); });
+    BakedBrdf baked = clock.time("baking", [&] { return bakeBrdf(samples, interpolant, options.bake); });
     progress("albedo", 0);
     walk.revisit([&](const Observations& block) {
         clock.time("albedo", [&] {
@@ -76,8 +97,12 @@ Acquisition acquire(const Capture& capture, const AcquireOptions& options, const
     if (!capture.smooth.empty()) {
         fillSmoothly(albedo, capture.smooth, capture.mask);
     }
-    result.surface = surfaceOf(selectPhotographs(capture, estimate.given), estimate.rig, std::move(estimate.normals),
-                               std::move(albedo), std::move(baked));
+    const glm::vec3 scale = normaliseAlbedo(albedo, baked.table);
+    const Material material = clock.time("model", [&] {
+        return compactMaterial(capture.name, std::move(baked), interpolant, scale, options.ladder, result.ladder);
+    });
+    result.surface = surfaceOf(selectPhotographs(capture, estimate.given), estimate.rig, estimate.normals,
+                               std::move(albedo), material);
     return result;
 }
 

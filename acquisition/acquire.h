@@ -10,6 +10,7 @@ struct Acquisition {
     Surface surface;
     NormalEstimate estimate; // its normal map has moved into the surface
     SampleCounts samples;
+    ModelLadder ladder;                // empty where the full table was asked for
     InterpolationChoice interpolation; // what the table was made with; judged where the choice was automatic
 };
 

@@ -4,6 +4,7 @@
 
 #include "acquisition/brdf/bake.h"
 #include "acquisition/brdf/brdf_samples.h"
+#include "acquisition/brdf/model_ladder.h"
 #include "acquisition/capture/observations.h"
 #include "acquisition/lights/lights.h"
 #include "acquisition/lights/well_spread_lights.h"
@@ -18,6 +19,7 @@ struct AcquireOptions {
     SampleOptions samples;
     InterpolationOptions interpolation;
     BakeOptions bake;
+    LadderOptions ladder; // nothing asked: the full table
     size_t byteBudget = ObservationReader::kDefaultByteBudget;
     // Photographs that disagree with the rest, and irradiances that nobody gave.
     bool correctIntensities = true;
@@ -25,7 +27,8 @@ struct AcquireOptions {
 
     void setThreads(int threads)
     {
-        calibration.threads = normals.threads = samples.threads = interpolation.threads = bake.threads = threads;
+        calibration.threads = normals.threads = samples.threads = interpolation.threads = bake.threads =
+            ladder.threads = threads;
     }
 };
 

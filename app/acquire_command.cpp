@@ -24,12 +24,16 @@ struct AcquireArguments {
     std::string coordinates = "half-difference";
     std::vector<int> tableSize;
     InterpolationArguments interpolation;
+    LadderArguments ladder;
+    std::string range = "captured";
 };
 
 AcquireOptions optionsOf(const AcquireArguments& arguments)
 {
     AcquireOptions options = arguments.common.stageOptions();
     options.interpolation = arguments.interpolation.options(options.interpolation.threads);
+    options.ladder = arguments.ladder.options(options.interpolation.threads);
+    options.bake.range = tableRangeFromName(arguments.range);
     if (arguments.coordinates != "half-difference" && arguments.coordinates != "natural") {
         throw Error("", fmt::format("--coordinates {} are not known", arguments.coordinates),
                     "half-difference or natural", Error::kUsage);
@@ -101,6 +105,12 @@ void addAcquireCommand(CLI::App& app)
     arguments->common.addTo(*command);
     command->add_option("-o,--output", arguments->output, "The surface to write, NAME.nacre")->required();
     arguments->interpolation.addTo(*command);
+    command
+        ->add_option("--range", arguments->range,
+                     "Of thetaD in the table: captured, front (45 degrees) or full (90); what was not captured is "
+                     "extrapolated and marked")
+        ->capture_default_str();
+    arguments->ladder.addTo(*command);
     command->add_option("--coordinates", arguments->coordinates, "Of the table: half-difference or natural")
         ->capture_default_str();
     command->add_option("--table-size", arguments->tableSize, "X,Y,Z texels (default: from the captured range)")

@@ -179,11 +179,36 @@ std::string describeBrdf(const Acquisition& acquisition)
     const SampleCounts& counts = acquisition.samples;
     const BrdfTable& table = acquisition.surface.materials.front().table;
     return fmt::format("observations {} used; left out: {} in shadow or grazing, {} saturated, {} of pixels without a "
-                       "normal, {} to thin them out\n"
+                       "normal, {} to thin them out\n{}{}"
                        "table        {}, scale {}\n",
                        counts.used, counts.shadowed, counts.saturated, counts.withoutNormal, counts.thinned,
-                       describe(table),
+                       describe(acquisition.interpolation), describe(acquisition.ladder), describe(table),
                        acquisition.surface.scale == RadianceScale::absolute ? "absolute (1/sr)" : "relative");
+}
+
+std::string describe(const InterpolationChoice& choice)
+{
+    if (choice.heldOut == 0) {
+        return {};
+    }
+    return fmt::format("interpolated {} from k = {}, azimuth {:g}, thetaD {:g}: error on {} held-out samples {:.4f} -> "
+                       "{:.4f} of the bright level\n",
+                       nameOf(choice.options.method), choice.options.k, choice.options.metric.azimuth,
+                       choice.options.metric.thetaD, choice.heldOut, choice.firstError, choice.error);
+}
+
+std::string describe(const ModelLadder& ladder)
+{
+    if (ladder.steps.empty()) {
+        return {};
+    }
+    std::string text = "model                                bytes   PSNR dB  ns a lookup\n";
+    for (size_t i = 0; i < ladder.steps.size(); ++i) {
+        const LadderStep& step = ladder.steps[i];
+        text += fmt::format("  {:<30} {:>9} {:>9.1f} {:>12.0f}{}\n", step.description, step.bytes, step.psnr,
+                            step.nanoseconds, ladder.taken == i ? "  <- taken" : "");
+    }
+    return text + (ladder.taken ? "" : "  none of them is good enough: the full table stays\n");
 }
 
 std::string describe(const BrdfTable& table)

@@ -1,5 +1,8 @@
 #include "app/interpolation_arguments.h"
 
+#include <algorithm>
+
+#include "acquisition/capture/text_files.h"
 #include "engine/scene/error.h"
 
 namespace nacre {
@@ -28,6 +31,47 @@ InterpolationOptions InterpolationArguments::options(int threads) const
             throw Error("", "--k " + k + " is not understood", "a number of samples, or auto", Error::kUsage);
         }
         options.k = std::stoi(k);
+    }
+    return options;
+}
+
+void LadderArguments::addTo(CLI::App& command)
+{
+    command
+        .add_option("--tolerance", tolerance,
+                    "Keep the smallest model whose radiance is within so many dB (PSNR) of the interpolated samples, "
+                    "e.g. 45dB (default: the full table)")
+        ->option_text("DB");
+    command
+        .add_option("--budget-bytes", budget,
+                    "Keep the best model of at most so many bytes, coverage apart, e.g. 64KiB; with --tolerance both "
+                    "must hold")
+        ->option_text("BYTES");
+}
+
+LadderOptions LadderArguments::options(int threads) const
+{
+    LadderOptions options;
+    options.threads = threads;
+    if (!tolerance.empty()) {
+        const bool unit = tolerance.size() > 2 && tolerance.ends_with("dB");
+        const auto value = parseNumber(unit ? tolerance.substr(0, tolerance.size() - 2) : tolerance);
+        if (!value || !(*value > 0) || *value > 200) {
+            throw Error("", "--tolerance " + tolerance + " is not understood", "decibels above 0, e.g. 45dB",
+                        Error::kUsage);
+        }
+        options.toleranceDecibels = *value;
+    }
+    if (!budget.empty()) {
+        const size_t digits = std::min(budget.find_first_not_of("0123456789"), budget.size());
+        const std::string unit = budget.substr(digits);
+        const double factor = unit.empty() || unit == "B" ? 1 : unit == "KiB" ? 1024 : unit == "MiB" ? 1048576 : 0;
+        const auto value = parseNumber(budget.substr(0, digits));
+        if (!value || factor == 0 || *value * factor < 1 || *value * factor > 1e12) {
+            throw Error("", "--budget-bytes " + budget + " is not understood", "a number of bytes, e.g. 65536 or 64KiB",
+                        Error::kUsage);
+        }
+        options.budgetBytes = static_cast<size_t>(*value * factor);
     }
     return options;
 }

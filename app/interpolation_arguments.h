@@ -3,7 +3,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "acquisition/brdf/interpolation.h"
+#include "acquisition/brdf/model_ladder.h"
 
 namespace nacre {
 
@@ -14,6 +14,15 @@ struct InterpolationArguments {
 
     void addTo(CLI::App& command);
     InterpolationOptions options(int threads) const; // throws usage Errors
+};
+
+// How large a model may be: --tolerance, --budget-bytes.
+struct LadderArguments {
+    std::string tolerance; // dB, with or without the unit
+    std::string budget;    // bytes, KiB or MiB after the number
+
+    void addTo(CLI::App& command);
+    LadderOptions options(int threads) const; // throws usage Errors
 };
 
 } // namespace nacre

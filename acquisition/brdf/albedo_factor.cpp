@@ -100,8 +100,9 @@ void refitAlbedo(const Observations& block, const NormalMap& normals, const std:
     });
 }
 
-void normaliseAlbedo(Image& albedo, BrdfTable& table)
+glm::vec3 normaliseAlbedo(Image& albedo, BrdfTable& table)
 {
+    glm::vec3 means(1);
     glm::dvec3 sum(0);
     size_t pixels = 0;
     for (size_t i = 0; i < albedo.values.size(); i += 3) {
@@ -113,6 +114,7 @@ void normaliseAlbedo(Image& albedo, BrdfTable& table)
     }
     for (int c = 0; c < 3; ++c) {
         const double mean = pixels && sum[c] > 0 ? sum[c] / static_cast<double>(pixels) : 1;
+        means[c] = static_cast<float>(mean);
         for (size_t i = c; i < albedo.values.size(); i += 3) {
             albedo.values[i] = static_cast<float>(albedo.values[i] / mean);
         }
@@ -120,6 +122,7 @@ void normaliseAlbedo(Image& albedo, BrdfTable& table)
             value[c] = static_cast<float>(value[c] * mean);
         }
     }
+    return means;
 }
 
 } // namespace nacre

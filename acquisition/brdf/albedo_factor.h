@@ -23,6 +23,7 @@ void refitAlbedo(const Observations& block, const NormalMap& normals, const std:
                  const BrdfTable& table, int threads, Image& albedo);
 
 // Makes the mean over the pixels that have a factor 1 in each channel, and gives the table what was taken from them.
-void normaliseAlbedo(Image& albedo, BrdfTable& table);
+// Answers what that was: the means.
+glm::vec3 normaliseAlbedo(Image& albedo, BrdfTable& table);
 
 } // namespace nacre

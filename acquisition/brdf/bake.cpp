@@ -6,6 +6,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "engine/scene/error.h"
 #include "engine/scene/parallel_for.h"
 
 namespace nacre {
@@ -46,6 +47,26 @@ TableDomain capturedDomain(const std::vector<Light>& lights, int coordinates)
     return {coordinates, std::clamp(thetaD, 1 / kRadian, kHalfPi)};
 }
 
+TableRange tableRangeFromName(const std::string& name)
+{
+    if (name == "captured") {
+        return TableRange::captured;
+    }
+    if (name == "front" || name == "full") {
+        return name == "front" ? TableRange::front : TableRange::full;
+    }
+    throw Error("", "--range " + name + " is unknown", "captured, front or full", Error::kUsage);
+}
+
+TableDomain tableDomain(const std::vector<Light>& lights, const BakeOptions& options)
+{
+    TableDomain domain = capturedDomain(lights, options.coordinates);
+    if (options.range != TableRange::captured) {
+        domain.thetaDMax = std::max(domain.thetaDMax, options.range == TableRange::front ? kHalfPi / 2 : kHalfPi);
+    }
+    return domain;
+}
+
 glm::ivec3 tableSize(const TableDomain& domain)
 {
     if (domain.coordinates == kNatural) {
@@ -56,12 +77,16 @@ glm::ivec3 tableSize(const TableDomain& domain)
 
 BakedBrdf bakeBrdf(const BrdfSamples& samples, const InterpolationOptions& interpolation, const BakeOptions& options)
 {
+    return bakeBrdf(samples, makeInterpolant(samples, interpolation), options);
+}
+
+BakedBrdf bakeBrdf(const BrdfSamples& samples, const BrdfInterpolant& interpolant, const BakeOptions& options)
+{
     const glm::ivec3 size = options.size.x > 0 ? options.size : tableSize(samples.domain);
     BakedBrdf baked{BrdfTable(size, samples.domain), {}};
     BrdfTable& table = baked.table;
     baked.coverage.distance.resize(table.values.size());
     baked.coverage.count.assign(table.values.size(), 0.0f);
-    const BrdfInterpolant interpolant = makeInterpolant(samples, interpolation);
     const glm::vec3 last = glm::max(glm::vec3(size) - 1.0f, glm::vec3(1.0f));
     parallelFor(static_cast<size_t>(size.y) * size.z, 8, options.threads, [&](size_t first, size_t end) {
         for (size_t row = first; row < end; ++row) {

@@ -1,12 +1,22 @@
 #pragma once
+#include <string>
+
 #include "acquisition/brdf/interpolation.h"
 #include "engine/scene/brdf_table.h"
 #include "engine/scene/light.h"
 
 namespace nacre {
 
+// Which thetaD a table spans: as far as lights were captured, to 45 degrees (all that lights before a fixed camera can
+// ask for), or all of 90. What lies beyond the samples is extrapolated, and its coverage says so.
+enum class TableRange { captured, front, full };
+
+// "captured", "front", "full"; a usage Error lists the names.
+TableRange tableRangeFromName(const std::string& name);
+
 struct BakeOptions {
     int coordinates = kHalfDifference;
+    TableRange range = TableRange::captured;
     // Texels; 0: from the domain, see tableSize.
     glm::ivec3 size{0};
     int threads = 0;
@@ -14,6 +24,9 @@ struct BakeOptions {
 
 // What of the domain a capture can fill: with the view fixed, thetaD is half the light's polar angle.
 TableDomain capturedDomain(const std::vector<Light>& lights, int coordinates);
+
+// What of the domain a table is to span.
+TableDomain tableDomain(const std::vector<Light>& lights, const BakeOptions& options);
 
 // 90 texels over thetaH (MERL's density), one a degree over thetaD, one every two degrees over the folded phiD.
 // Natural: 90 x 90 x 90.
@@ -24,6 +37,8 @@ struct BakedBrdf {
     Coverage coverage;
 };
 
+// samples: those that the interpolant was made of.
+BakedBrdf bakeBrdf(const BrdfSamples& samples, const BrdfInterpolant& interpolant, const BakeOptions& options);
 BakedBrdf bakeBrdf(const BrdfSamples& samples, const InterpolationOptions& interpolation, const BakeOptions& options);
 
 } // namespace nacre

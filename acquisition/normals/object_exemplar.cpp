@@ -94,7 +94,7 @@ std::optional<BrdfTable> makeObjectTable(const Intensities& sample, const Exempl
     options.size = kTableSize;
     options.size.y = std::max(3, static_cast<int>(samples.domain.thetaDMax * 180 / kPi / 2));
     options.threads = threads;
-    return bakeBrdf(samples, {}, options).table;
+    return bakeBrdf(samples, InterpolationOptions{}, options).table;
 }
 
 Exemplar makeObjectExemplar(const BrdfTable& table, const std::vector<Light>& lights, int threads)

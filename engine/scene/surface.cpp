@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/scene/error.h"
+#include "engine/scene/material_file.h"
 #include "engine/scene/whole_file.h"
 
 namespace nacre {
@@ -26,36 +27,6 @@ glm::vec3 vec3Of(const Json& json)
     return {json.at(0).get<float>(), json.at(1).get<float>(), json.at(2).get<float>()};
 }
 
-std::string materialFile(size_t index)
-{
-    return fmt::format("material_{}.exr", index);
-}
-
-std::string coverageFile(size_t index)
-{
-    return fmt::format("material_{}_coverage.exr", index);
-}
-
-Json describe(const Material& material, size_t index)
-{
-    Json json = {{"name", material.name}, {"table", materialFile(index)}};
-    if (!material.coverage.distance.empty()) {
-        json["coverage"] = coverageFile(index);
-    }
-    return json;
-}
-
-Material materialOf(const fs::path& folder, const Json& json)
-{
-    Material material;
-    material.name = json.at("name").get<std::string>();
-    material.table = loadBrdfTable(folder / json.at("table").get<std::string>());
-    if (json.contains("coverage")) {
-        material.coverage = loadCoverage(folder / json.at("coverage").get<std::string>(), material.table.size);
-    }
-    return material;
-}
-
 Json describe(const Surface& surface)
 {
     Json json = {{"format", "nacre surface"},
@@ -69,9 +40,6 @@ Json describe(const Surface& surface)
                  {"lights", Json::array()}};
     if (!surface.albedo.values.empty()) {
         json["albedo"] = "albedo.exr";
-    }
-    for (size_t i = 0; i < surface.materials.size(); ++i) {
-        json["materials"].push_back(describe(surface.materials[i], i));
     }
     for (const CapturedLight& light : surface.lights) {
         json["lights"].push_back({{"photograph", light.photograph},
@@ -124,7 +92,7 @@ Surface surfaceOf(const fs::path& folder, const Json& json)
     surface.scale = json.at("scale") == "absolute" ? RadianceScale::absolute : RadianceScale::relative;
     surface.normals = loadNormalMap(folder / json.at("normals").get<std::string>());
     for (const Json& material : json.at("materials")) {
-        surface.materials.push_back(materialOf(folder, material));
+        surface.materials.push_back(loadMaterial(folder, material));
     }
     surface.labels = loadLabels(folder / json.at("labels").get<std::string>(), surface);
     if (json.contains("albedo")) {
@@ -156,14 +124,11 @@ void saveSurface(const fs::path& folder, const Surface& surface, bool replace)
     if (!surface.albedo.values.empty()) {
         saveImage(to / "albedo.exr", surface.albedo, PixelType::float32);
     }
+    Json json = describe(surface);
     for (size_t i = 0; i < surface.materials.size(); ++i) {
-        const Material& material = surface.materials[i];
-        saveBrdfTable(to / materialFile(i), material.table);
-        if (!material.coverage.distance.empty()) {
-            saveCoverage(to / coverageFile(i), material.table.size, material.coverage);
-        }
+        json["materials"].push_back(saveMaterial(to, surface.materials[i], i));
     }
-    writeTextFile(to / "surface.json", describe(surface).dump(2) + "\n");
+    writeTextFile(to / "surface.json", json.dump(2) + "\n");
     output.commit();
 }
 

@@ -1,10 +1,12 @@
 #pragma once
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "engine/scene/brdf_table.h"
+#include "engine/scene/compact_brdf.h"
 #include "engine/scene/image.h"
 #include "engine/scene/light.h"
 #include "engine/scene/normal_map.h"
@@ -14,7 +16,9 @@ namespace nacre {
 struct Material {
     std::string name;
     BrdfTable table;
-    Coverage coverage; // empty where the table was not measured
+    Coverage coverage; // empty where the table was not measured, or is a smaller model's
+    // The smaller model that the table was made of; empty where the table itself is the model.
+    std::optional<CompactBrdf> compact{};
 };
 
 // relative: the BRDF is 1/sr up to one factor per capture. absolute: the diffuse sphere's reflectance was given.

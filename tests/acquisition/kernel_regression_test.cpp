@@ -86,8 +86,8 @@ TEST(Bake, NaturalAndHalfDifferenceAgreeOnLambert)
     options.size = {12, 8, 10};
     const glm::vec3 l = glm::normalize(glm::vec3(0.3f, 0.2f, 0.9f)), v(0, 0, 1);
     const glm::vec3 n = glm::normalize(glm::vec3(-0.2f, 0.4f, 0.8f));
-    const BakedBrdf half = bakeBrdf(scatteredSamples(400), {}, options);
-    const BakedBrdf natural = bakeBrdf(scatteredSamples(400, kNatural), {}, options);
+    const BakedBrdf half = bakeBrdf(scatteredSamples(400), InterpolationOptions{}, options);
+    const BakedBrdf natural = bakeBrdf(scatteredSamples(400, kNatural), InterpolationOptions{}, options);
     const glm::vec3 a = evaluateTable(half.table, n, l, v).value, b = evaluateTable(natural.table, n, l, v).value;
     EXPECT_LT(glm::length(a - b), 1e-6f);
     EXPECT_LT(glm::length(a - glm::vec3(0.3f, 0.2f, 0.1f)), 1e-6f);
@@ -101,7 +101,7 @@ TEST(Bake, CoverageKnowsWhereSamplesAre)
     }
     BakeOptions options;
     options.size = {40, 21, 40};
-    const BakedBrdf baked = bakeBrdf(samples, {}, options);
+    const BakedBrdf baked = bakeBrdf(samples, InterpolationOptions{}, options);
     EXPECT_GT(baked.table.confidence[baked.table.index(30, 4, 20)], 0.9f);
     EXPECT_LT(baked.table.confidence[baked.table.index(30, 20, 20)], 0.9f);
     EXPECT_GT(baked.coverage.distance[baked.table.index(30, 20, 20)], 0.15f);
@@ -122,7 +122,7 @@ TEST(Bake, SameBytesForOneAndTwoThreads)
     for (size_t i = 0; i < samples.size(); ++i) {
         samples.values[i] = glm::vec3(std::sin(9 * samples.unit[i].x), samples.unit[i].y, 1);
     }
-    const BakedBrdf a = bakeBrdf(samples, {}, one), b = bakeBrdf(samples, {}, two);
+    const BakedBrdf a = bakeBrdf(samples, InterpolationOptions{}, one), b = bakeBrdf(samples, InterpolationOptions{}, two);
     EXPECT_EQ(a.table.values, b.table.values);
     EXPECT_EQ(a.table.confidence, b.table.confidence);
 }

@@ -185,7 +185,7 @@ TEST(InterpolationChoice, TakesFewNeighboursForSharpDataAndManyForNoise)
 
 TEST(Bake, ASingleLightGivesATableWithoutNan)
 {
-    const BakedBrdf baked = bakeBrdf(planeSamples(1, 50, ggxTruth(0.2f)), {}, {.size = {12, 5, 6}});
+    const BakedBrdf baked = bakeBrdf(planeSamples(1, 50, ggxTruth(0.2f)), InterpolationOptions{}, {.size = {12, 5, 6}});
     for (const glm::vec3& value : baked.table.values) {
         EXPECT_TRUE(isFinite(value));
     }

@@ -1,0 +1,115 @@
+#include "engine/scene/compact_brdf.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+namespace nacre {
+
+namespace {
+
+template <class... Ts> struct Overloaded : Ts... {
+    using Ts::operator()...;
+};
+template <class... Ts> Overloaded(Ts...) -> Overloaded<Ts...>;
+
+glm::vec3 unitOfTexel(const BrdfTable& table, size_t texel)
+{
+    const size_t x = static_cast<size_t>(table.size.x), y = static_cast<size_t>(table.size.y);
+    const glm::vec3 index(texel % x, texel / x % y, texel / (x * y));
+    return index / glm::max(glm::vec3(table.size) - 1.0f, glm::vec3(1.0f));
+}
+
+// On the grid and with the coverage of `covered`.
+template <class Value> BrdfTable tableOnGrid(const BrdfTable& covered, Value&& valueOfTexel)
+{
+    BrdfTable table = covered;
+    for (size_t texel = 0; texel < table.values.size(); ++texel) {
+        table.values[texel] = glm::max(valueOfTexel(texel), glm::vec3(0));
+    }
+    return table;
+}
+
+// Light or view can be below the horizon in a corner of the grid; there the lobe's value at the horizon will do.
+glm::vec3 lobeAt(const AbcModel& model, const LightView& directions)
+{
+    static constexpr float kLeastCosine = 1e-3f;
+    const auto above = [](glm::vec3 d) {
+        d.z = std::max(d.z, kLeastCosine);
+        return glm::normalize(d);
+    };
+    return evaluate(model, {0, 0, 1}, above(directions.l), above(directions.v));
+}
+
+glm::vec3 lowRankValue(const LowRankTable& model, size_t texel)
+{
+    const size_t x = static_cast<size_t>(model.size.x), slice = texel / x, i = texel % x;
+    const size_t sliceSize = static_cast<size_t>(model.size.y) * model.size.z;
+    glm::vec3 sum(0);
+    for (int r = 0; r < model.rank; ++r) {
+        const float weight = model.slices[r * sliceSize + slice];
+        for (int c = 0; c < 3; ++c) {
+            sum[c] += model.profiles[(size_t{3} * r + c) * x + i] * weight;
+        }
+    }
+    return sum;
+}
+
+} // namespace
+
+std::string nameOf(const CompactBrdf& model)
+{
+    return std::visit(
+        Overloaded{
+            [](const FittedLobe& m) -> std::string { return m.model.A == glm::vec3(0) ? "Lambert" : "Lambert + lobe"; },
+            [](const SmallTable& m) -> std::string { return m.table.size.z == 1 ? "bivariate" : "table"; },
+            [](const LowRankTable& m) { return fmt::format("rank {}", m.rank); }},
+        model);
+}
+
+size_t bytesOf(const CompactBrdf& model)
+{
+    return std::visit(
+        Overloaded{[](const FittedLobe& m) {
+                       const size_t diffuse = 3, lobe = 6; // kD; A, B, C, ior
+                       return sizeof(float) * (m.model.A == glm::vec3(0) ? diffuse : diffuse + lobe);
+                   },
+                   [](const SmallTable& m) { return m.table.values.size() * bytesPerTexel(m.format); },
+                   [](const LowRankTable& m) { return sizeof(float) * (m.profiles.size() + m.slices.size()); }},
+        model);
+}
+
+BrdfTable resampledTable(const BrdfTable& table, const glm::ivec3& size)
+{
+    BrdfTable resampled(size, table.domain);
+    for (size_t texel = 0; texel < resampled.values.size(); ++texel) {
+        const BrdfValue value = sampleTable(table, unitOfTexel(resampled, texel));
+        resampled.values[texel] = value.value;
+        resampled.confidence[texel] = value.confidence;
+    }
+    return resampled;
+}
+
+BrdfTable expandedTable(const CompactBrdf& model, const BrdfTable& covered)
+{
+    return std::visit(
+        Overloaded{[&](const FittedLobe& m) {
+                       return tableOnGrid(covered, [&](size_t texel) {
+                           return lobeAt(m.model, directionsFromUnit(covered.domain, unitOfTexel(covered, texel)));
+                       });
+                   },
+                   [&](const SmallTable& m) {
+                       BrdfTable table = m.table;
+                       table.confidence = resampledTable(covered, table.size).confidence;
+                       return table;
+                   },
+                   [&](const LowRankTable& m) {
+                       const BrdfTable grid = covered.size == m.size ? covered : resampledTable(covered, m.size);
+                       return tableOnGrid(grid, [&](size_t texel) { return lowRankValue(m, texel); });
+                   }},
+        model);
+}
+
+} // namespace nacre

@@ -1,0 +1,48 @@
+#pragma once
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "engine/scene/brdf_models.h"
+#include "engine/scene/brdf_table.h"
+#include "engine/scene/texel_format.h"
+
+namespace nacre {
+
+// Smaller descriptions of a material than its full table, each enough to make a table from (expandedTable).
+
+// f = kD / pi + a lobe; A = 0: Lambert.
+struct FittedLobe {
+    AbcModel model;
+};
+
+// A table of fewer texels, or of shorter ones; size.z = 1: bivariate, f(thetaH, thetaD). Holds quantised values.
+struct SmallTable {
+    BrdfTable table;
+    TexelFormat format = TexelFormat::rgba32f;
+};
+
+// f(thetaH, thetaD, phiD) = sum over r of profiles[r](thetaH, channel) slices[r](thetaD, phiD), on the grid of `size`.
+struct LowRankTable {
+    glm::ivec3 size{0};
+    TableDomain domain{kHalfDifference, kHalfPi};
+    int rank = 0;
+    std::vector<float> profiles; // [(r * 3 + channel) * size.x + i]
+    std::vector<float> slices;   // [(r * size.z + k) * size.y + j]
+};
+
+using CompactBrdf = std::variant<FittedLobe, SmallTable, LowRankTable>;
+
+// "Lambert", "Lambert + lobe", "bivariate", "table", "rank 3".
+std::string nameOf(const CompactBrdf& model);
+// Of what it takes in memory; coverage apart.
+size_t bytesOf(const CompactBrdf& model);
+
+// The table that the renderer looks up, with the coverage of `covered`, sampled where grids differ: a small table as it
+// is, the others on covered's grid. f is never negative.
+BrdfTable expandedTable(const CompactBrdf& model, const BrdfTable& covered);
+
+// `table` on another grid of the same domain, trilinear.
+BrdfTable resampledTable(const BrdfTable& table, const glm::ivec3& size);
+
+} // namespace nacre
