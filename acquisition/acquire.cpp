@@ -1,37 +1,59 @@
 #include "acquisition/acquire.h"
 
-#include <algorithm>
+#include <optional>
 
-#include "acquisition/brdf/albedo_factor.h"
-#include "acquisition/normals/smooth_fill.h"
+#include <fmt/format.h>
+
+#include "acquisition/material_albedo.h"
+#include "acquisition/material_samples.h"
+#include "engine/scene/error.h"
 
 namespace nacre {
 
 namespace {
 
-void storeAlbedo(const Observations& block, const std::vector<glm::vec3>& factors, Image& albedo)
+// Before anything is estimated, so that labels that are no good are refused at once. Empty where labels are to be
+// found.
+std::optional<Segmentation> knownSegmentation(const Capture& capture, const SegmentOptions& options)
 {
-    for (size_t p = 0; p < factors.size(); ++p) {
-        const uint32_t pixel = block.pixels[p];
-        albedo.setRgb(static_cast<int>(pixel % albedo.width), static_cast<int>(pixel / albedo.width), factors[p]);
+    if (options.source == SegmentSource::found) {
+        return {};
     }
+    const bool named = options.source == SegmentSource::picture;
+    const bool captured = options.source == SegmentSource::asCaptured && !capture.labelsFile.empty();
+    if (!named && !captured) {
+        return oneMaterial(capture);
+    }
+    const std::filesystem::path& file = named ? options.picture : capture.labelsFile;
+    Segmentation segmentation = segmentationOf(loadLabelPicture(file, capture), capture);
+    segmentation.source = file.string();
+    return segmentation;
 }
 
-// Normals, and on the way samples of f with a first albedo factor of each pixel.
-BrdfSamples estimateAndGather(CaptureWalk& walk, const Capture& capture, const AcquireOptions& options, Image& albedo,
-                              Acquisition& result)
+// What every pixel tells of its material, by rough normals.
+Segmentation findSegmentation(CaptureWalk& walk, const Capture& capture, const AcquireOptions& options,
+                              const Progress& progress, NormalEstimate& estimate)
 {
-    BrdfSamples samples;
-    walk.estimate([&](const Observations& block, const NormalBlock& normals) {
-        const std::vector<Light>& lights = result.estimate.rig.lights; // known once blocks come
-        const double observations = static_cast<double>(capture.maskPixels) * static_cast<double>(lights.size());
-        const double share = static_cast<double>(options.samples.most) / std::max(observations, 1.0);
-        samples.domain = tableDomain(lights, options.bake);
-        const std::vector<glm::vec3> factors = albedoFactors(block, normals, lights);
-        storeAlbedo(block, factors, albedo);
-        gatherSamples(block, normals, factors, lights, share, options.samples, samples, result.samples);
+    std::vector<PixelTraits> traits;
+    StageClock clock(estimate.times);
+    walk.survey([&](const Observations& block, const NormalBlock& normals) {
+        const std::vector<PixelTraits> more = clock.time(
+            "materials", [&] { return pixelTraits(block, normals, estimate.rig.lights, options.samples.threads); });
+        traits.insert(traits.end(), more.begin(), more.end());
     });
-    return samples;
+    progress("materials", 0);
+    return clock.time("materials", [&] { return foundSegmentation(traits, capture, options.segment); });
+}
+
+// Normals, and on the way samples.
+std::vector<BrdfSamples> estimateAndGather(CaptureWalk& walk, const AcquireOptions& options, Image& albedo,
+                                           Acquisition& result)
+{
+    MaterialSamples gathered(result.segmentation, options, result.samples);
+    walk.estimate(result.segmentation, [&](const Observations& block, const NormalBlock& normals) {
+        gathered.gather(block, normals, result.estimate.rig.lights, albedo);
+    });
+    return std::move(gathered.samples);
 }
 
 BrdfInterpolant interpolate(const BrdfSamples& samples, const AcquireOptions& options, InterpolationChoice& choice)
@@ -41,6 +63,30 @@ BrdfInterpolant interpolate(const BrdfSamples& samples, const AcquireOptions& op
         choice = chooseInterpolation(samples, options.interpolation);
     }
     return makeInterpolant(samples, choice.options);
+}
+
+// What a material's table is made of, and the table.
+struct BakedMaterial {
+    BrdfInterpolant interpolant;
+    BakedBrdf baked;
+};
+
+std::vector<BakedMaterial> bakeAll(const std::vector<BrdfSamples>& samples, const AcquireOptions& options,
+                                   Acquisition& result)
+{
+    std::vector<BakedMaterial> materials;
+    for (size_t i = 0; i < samples.size(); ++i) {
+        if (samples.size() > 1 && samples[i].size() == 0) {
+            throw Error("",
+                        fmt::format("material {} has no observation to measure a BRDF from",
+                                    result.segmentation.regions[i].name),
+                        "lit, unsaturated pixels with normals");
+        }
+        BrdfInterpolant interpolant = interpolate(samples[i], options, result.fits.emplace_back().interpolation);
+        BakedBrdf baked = bakeBrdf(samples[i], interpolant, options.bake);
+        materials.push_back({std::move(interpolant), std::move(baked)});
+    }
+    return materials;
 }
 
 // The material as small as it was asked for, or its full table. `scale`: of the table over the interpolant.
@@ -62,10 +108,19 @@ Material compactMaterial(const std::string& name, BakedBrdf baked, const BrdfInt
     return {name, expandedTable(model, baked.table), {}, model};
 }
 
-Surface surfaceOf(const Capture& capture, const Rig& rig, const NormalMap& normals, Image albedo,
-                  const Material& material)
+Surface surfaceOf(const Capture& capture, const Acquisition& result, NormalMap normals, Image albedo,
+                  std::vector<Material> materials)
 {
-    Surface surface = transferredSurface(normals, material);
+    const Rig& rig = result.estimate.rig;
+    Surface surface;
+    surface.labels = result.segmentation.labels;
+    for (size_t i = 0; i < surface.labels.size(); ++i) {
+        if (normals.confidence[i] <= 0) {
+            surface.labels[i] = Surface::kNoMaterial;
+        }
+    }
+    surface.normals = std::move(normals);
+    surface.materials = std::move(materials);
     surface.albedo = std::move(albedo);
     surface.scale = rig.absolute ? RadianceScale::absolute : RadianceScale::relative;
     for (size_t i = 0; i < rig.lights.size(); ++i) {
@@ -80,29 +135,36 @@ Acquisition acquire(const Capture& capture, const AcquireOptions& options, const
 {
     Acquisition result;
     NormalEstimate& estimate = result.estimate;
+    std::optional<Segmentation> known = knownSegmentation(capture, options.segment);
     CaptureWalk walk(capture, options, progress, estimate);
+    result.segmentation = known ? std::move(*known) : findSegmentation(walk, capture, options, progress, estimate);
+    const std::vector<uint8_t>& labels = result.segmentation.labels;
     Image albedo(capture.width, capture.height, 3);
-    const BrdfSamples samples = estimateAndGather(walk, capture, options, albedo, result);
+    const std::vector<BrdfSamples> samples = estimateAndGather(walk, options, albedo, result);
     progress("baking", 0);
     StageClock clock(estimate.times);
-    const BrdfInterpolant interpolant =
-        clock.time("baking", [&] { return interpolate(samples, options, result.interpolation); });
-    BakedBrdf baked = clock.time("baking", [&] { return bakeBrdf(samples, interpolant, options.bake); });
+    std::vector<BakedMaterial> baked = clock.time("baking", [&] { return bakeAll(samples, options, result); });
+    std::vector<BrdfTable*> tables;
+    for (BakedMaterial& material : baked) {
+        tables.push_back(&material.baked.table);
+    }
     progress("albedo", 0);
     walk.revisit([&](const Observations& block) {
         clock.time("albedo", [&] {
-            refitAlbedo(block, estimate.normals, estimate.rig.lights, baked.table, options.bake.threads, albedo);
+            refitAlbedo(block, estimate.normals, estimate.rig.lights, labels, tables, options.bake.threads, albedo);
         });
     });
-    if (!capture.smooth.empty()) {
-        fillSmoothly(albedo, capture.smooth, capture.mask);
-    }
-    const glm::vec3 scale = normaliseAlbedo(albedo, baked.table);
-    const Material material = clock.time("model", [&] {
-        return compactMaterial(capture.name, std::move(baked), interpolant, scale, options.ladder, result.ladder);
+    const std::vector<glm::vec3> scales = finishAlbedo(capture, labels, tables, albedo);
+    std::vector<Material> materials = clock.time("model", [&] {
+        std::vector<Material> compact;
+        for (size_t i = 0; i < baked.size(); ++i) {
+            compact.push_back(compactMaterial(result.segmentation.regions[i].name, std::move(baked[i].baked),
+                                              baked[i].interpolant, scales[i], options.ladder, result.fits[i].ladder));
+        }
+        return compact;
     });
-    result.surface = surfaceOf(selectPhotographs(capture, estimate.given), estimate.rig, estimate.normals,
-                               std::move(albedo), material);
+    result.surface = surfaceOf(selectPhotographs(capture, estimate.given), result, std::move(estimate.normals),
+                               std::move(albedo), std::move(materials));
     return result;
 }
 

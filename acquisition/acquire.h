@@ -2,20 +2,27 @@
 #include "acquisition/acquire_options.h"
 #include "acquisition/brdf/interpolation_choice.h"
 #include "acquisition/normal_estimation.h"
+#include "acquisition/segmentation/segmentation.h"
 #include "engine/scene/surface.h"
 
 namespace nacre {
 
+// How a material's table came about.
+struct MaterialFit {
+    InterpolationChoice interpolation; // judged where the choice was automatic
+    ModelLadder ladder;                // empty where the full table was asked for
+};
+
 struct Acquisition {
     Surface surface;
     NormalEstimate estimate; // its normal map has moved into the surface
-    SampleCounts samples;
-    ModelLadder ladder;                // empty where the full table was asked for
-    InterpolationChoice interpolation; // what the table was made with; judged where the choice was automatic
+    Segmentation segmentation;
+    SampleCounts samples;          // of all materials' inner pixels
+    std::vector<MaterialFit> fits; // one a material
 };
 
-// Photographs -> lights -> normals -> samples -> BRDF table -> albedo factors: the whole chain. A capture that fits
-// into options.byteBudget is read once, a larger one once more for each of its later stages.
+// Photographs -> lights -> normals -> materials -> samples -> BRDF tables -> albedo factors: the whole chain. A capture
+// that fits into options.byteBudget is read once, a larger one once more for each of its later stages.
 Acquisition acquire(const Capture& capture, const AcquireOptions& options, const Progress& progress);
 
 } // namespace nacre

@@ -9,6 +9,7 @@
 #include "acquisition/lights/lights.h"
 #include "acquisition/lights/well_spread_lights.h"
 #include "acquisition/normals/normals.h"
+#include "acquisition/segmentation/segment_options.h"
 
 namespace nacre {
 
@@ -17,6 +18,7 @@ struct AcquireOptions {
     LightChoice lights; // photographs that are not chosen are not read
     NormalOptions normals;
     SampleOptions samples;
+    SegmentOptions segment;
     InterpolationOptions interpolation;
     BakeOptions bake;
     LadderOptions ladder; // nothing asked: the full table

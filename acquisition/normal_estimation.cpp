@@ -1,5 +1,6 @@
 #include "acquisition/normal_estimation.h"
 
+#include "acquisition/material_normals.h"
 #include "acquisition/normals/pixel_sample.h"
 #include "acquisition/normals/smooth_fill.h"
 
@@ -113,17 +114,32 @@ CaptureWalk::CaptureWalk(const Capture& capture, const AcquireOptions& options, 
 
 void CaptureWalk::prepare(const Observations& first)
 {
-    Observations sample = samplePixels(given_, first, options_.normals.threads, options_.byteBudget);
-    prepared_ = prepareNormals(
-        {std::move(sample), namesOf(given_.photographs), areIrradiancesKnown(given_), result_.rig.lights}, options_);
+    CaptureSample sample{samplePixels(given_, first, options_.normals.threads, options_.byteBudget),
+                         namesOf(given_.photographs), areIrradiancesKnown(given_), result_.rig.lights};
+    prepared_ = preparePhotographs(sample, options_);
+    sample_ = std::move(sample.seen);
     keepPrepared(given_, prepared_, result_);
-    result_.verdicts.resize(prepared_.lights.size());
+}
+
+void CaptureWalk::makeEstimators()
+{
+    result_.report = prepared_.report;
+    const std::vector<Light>& lights = prepared_.lights;
+    if (!materials_) {
+        NormalOptions options = options_.normals;
+        options.method = NormalMethod::consensus;
+        estimators_ = {makeNormalEstimator(intensitiesOf(sample_, lights), lights, options, result_.report)};
+        return;
+    }
+    estimators_ = estimatorsByMaterial(sample_, *materials_, lights, options_.normals, result_.report);
 }
 
 NormalBlock CaptureWalk::normalsOf(const Observations& block)
 {
-    NormalBlock normals =
-        clock_.time("normals", [&] { return estimateBlock(prepared_.estimator, block, prepared_.lights); });
+    NormalBlock normals = clock_.time("normals", [&] {
+        return estimators_.size() == 1 ? estimateBlock(estimators_[0], block, prepared_.lights)
+                                       : estimateByMaterial(estimators_, *materials_, block, prepared_.lights);
+    });
     dropMarked(given_, block, normals);
     return normals;
 }
@@ -141,34 +157,54 @@ void CaptureWalk::eachBlock(ObservationReader& reader, Observations& block, bool
     }
 }
 
-void CaptureWalk::estimate(const Visitor& visit)
+// Estimators are made once the first block has shown the photographs.
+void CaptureWalk::walkFiles(const std::function<void(const Observations&)>& visit)
 {
-    result_.normals = NormalMap(given_.width, given_.height);
     ObservationReader reader(given_, options_.normals.threads, options_.byteBudget);
     Observations block;
     progress_("reading", 0);
     const bool more = clock_.time("reading", [&] { return reader.next(block); });
-    progress_("choosing", 0);
-    clock_.time("choosing", [&] { prepare(block); });
+    if (sample_.pixels.empty()) {
+        progress_("choosing", 0);
+        clock_.time("choosing", [&] { prepare(block); });
+    }
+    clock_.time("choosing", [&] { makeEstimators(); });
     eachBlock(reader, block, more, [&](const Observations& seen) {
-        NormalBlock normals = normalsOf(seen);
-        storeNormals(seen, normals, options_.keepVerdicts, result_);
-        visit(seen, normals);
-        wholeNormals_ = std::move(normals);
+        visit(seen);
         if (seen.pixels.size() == given_.maskPixels) {
             whole_ = seen;
         }
     });
-    smoothMarked(given_, result_);
 }
 
-void CaptureWalk::revisit(const Visitor& visit)
+void CaptureWalk::walk(const Visitor& visit)
 {
-    if (!whole_.pixels.empty()) {
-        visit(whole_, wholeNormals_);
+    const auto show = [&](const Observations& block) { visit(block, normalsOf(block)); };
+    if (whole_.pixels.empty()) {
+        walkFiles(show);
         return;
     }
-    revisit([&](const Observations& block) { visit(block, normalsOf(block)); });
+    progress_("choosing", 0);
+    clock_.time("choosing", [&] { makeEstimators(); });
+    show(whole_);
+}
+
+void CaptureWalk::survey(const Visitor& visit)
+{
+    materials_ = nullptr;
+    walk(visit);
+}
+
+void CaptureWalk::estimate(const Segmentation& materials, const Visitor& visit)
+{
+    materials_ = &materials;
+    result_.normals = NormalMap(given_.width, given_.height);
+    walk([&](const Observations& block, const NormalBlock& normals) {
+        result_.verdicts.resize(block.lightCount);
+        storeNormals(block, normals, options_.keepVerdicts, result_);
+        visit(block, normals);
+    });
+    smoothMarked(given_, result_);
 }
 
 void CaptureWalk::revisit(const std::function<void(const Observations&)>& visit)
@@ -186,7 +222,8 @@ void CaptureWalk::revisit(const std::function<void(const Observations&)>& visit)
 NormalEstimate estimateCaptureNormals(const Capture& capture, const AcquireOptions& options, const Progress& progress)
 {
     NormalEstimate result;
-    CaptureWalk(capture, options, progress, result).estimate([](const Observations&, const NormalBlock&) {});
+    const Segmentation whole = oneMaterial(capture);
+    CaptureWalk(capture, options, progress, result).estimate(whole, [](const Observations&, const NormalBlock&) {});
     return result;
 }
 

@@ -6,6 +6,7 @@
 #include "acquisition/acquire_options.h"
 #include "acquisition/capture/capture.h"
 #include "acquisition/prepared_normals.h"
+#include "acquisition/segmentation/segmentation.h"
 #include "acquisition/stage_clock.h"
 
 namespace nacre {
@@ -31,7 +32,7 @@ struct NormalEstimate {
 };
 
 // Walks a capture block by block: first to estimate normals, then as often as asked. A capture that is one block is
-// read and estimated once and held; a larger one is read, and if need be estimated, again.
+// read once and held; a larger one is read again.
 class CaptureWalk {
 public:
     using Visitor = std::function<void(const Observations&, const NormalBlock&)>;
@@ -40,15 +41,19 @@ public:
     CaptureWalk(const Capture& capture, const AcquireOptions& options, const Progress& progress,
                 NormalEstimate& result);
 
-    // Photographs -> normals: fills the result, and shows each block on the way.
-    void estimate(const Visitor& visit);
-    // The blocks once more, with the normals estimated from them.
-    void revisit(const Visitor& visit);
-    // The blocks once more, observations alone.
+    // Rough normals of each block, by a method that asks nothing of the object as a whole: for finding materials.
+    void survey(const Visitor& visit);
+    // Photographs -> normals: fills the result, and shows each block on the way. The method looks at each material by
+    // itself. `materials` are referred to while the walk lives.
+    void estimate(const Segmentation& materials, const Visitor& visit);
+    // The blocks once more.
     void revisit(const std::function<void(const Observations&)>& visit);
 
 private:
     void prepare(const Observations& first);
+    void makeEstimators();
+    void walk(const Visitor& visit);
+    void walkFiles(const std::function<void(const Observations&)>& visit);
     void eachBlock(ObservationReader& reader, Observations& block, bool more,
                    const std::function<void(const Observations&)>& visit);
     NormalBlock normalsOf(const Observations& block);
@@ -58,9 +63,11 @@ private:
     NormalEstimate& result_;
     StageClock clock_;
     Capture given_;
-    PreparedNormals prepared_;
-    Observations whole_; // of a capture that is one block
-    NormalBlock wholeNormals_;
+    PreparedNormals prepared_; // its estimator is not used
+    Observations sample_;
+    const Segmentation* materials_ = nullptr; // null: none are known
+    std::vector<NormalEstimator> estimators_; // one a material
+    Observations whole_;                      // of a capture that is one block
 };
 
 // Photographs -> lights -> normals.

@@ -31,8 +31,6 @@ std::vector<std::string> selected(const std::vector<std::string>& names, const s
     return result;
 }
 
-// Leaves out photographs that cannot be reconciled with the others, the sample's too, and corrects irradiances by what
-// the rest say.
 void reconcilePhotographs(const CaptureSample& capture, const AcquireOptions& options, Observations& sample,
                           PreparedNormals& prepared)
 {
@@ -56,19 +54,24 @@ void reconcilePhotographs(const CaptureSample& capture, const AcquireOptions& op
 
 } // namespace
 
-PreparedNormals prepareNormals(CaptureSample capture, const AcquireOptions& options)
+PreparedNormals preparePhotographs(CaptureSample& capture, const AcquireOptions& options)
 {
     PreparedNormals prepared;
     prepared.agreeing = agreeingPhotographs({}, capture.lights.size());
     prepared.lights = capture.lights;
-    Observations& sample = capture.seen;
-    reconcilePhotographs(capture, options, sample, prepared);
+    reconcilePhotographs(capture, options, capture.seen, prepared);
     for (const std::string& warning : warningsOf(prepared.lights)) {
         prepared.report.remarks.push_back(warning);
     }
-    prepared.report.lambertianResidual = lambertianResidual(sample, prepared.lights);
-    prepared.estimator =
-        makeNormalEstimator(intensitiesOf(sample, prepared.lights), prepared.lights, options.normals, prepared.report);
+    prepared.report.lambertianResidual = lambertianResidual(capture.seen, prepared.lights);
+    return prepared;
+}
+
+PreparedNormals prepareNormals(CaptureSample capture, const AcquireOptions& options)
+{
+    PreparedNormals prepared = preparePhotographs(capture, options);
+    prepared.estimator = makeNormalEstimator(intensitiesOf(capture.seen, prepared.lights), prepared.lights,
+                                             options.normals, prepared.report);
     return prepared;
 }
 

@@ -22,6 +22,9 @@ struct PreparedNormals {
     NormalEstimator estimator;
 };
 
+// Leaves out photographs that cannot be reconciled with the others, the sample's too, and corrects irradiances by what
+// the rest say; the estimator is not made.
+PreparedNormals preparePhotographs(CaptureSample& capture, const AcquireOptions& options);
 // The steps from observations to normals, for observations that stand in no file as well; blocks hold the agreeing
 // photographs alone.
 PreparedNormals prepareNormals(CaptureSample capture, const AcquireOptions& options);

@@ -9,6 +9,7 @@
 #include "app/debug_pictures.h"
 #include "app/destinations.h"
 #include "app/interpolation_arguments.h"
+#include "app/label_pictures.h"
 #include "app/progress_line.h"
 #include "app/verdict_pictures.h"
 #include "engine/scene/error.h"
@@ -21,6 +22,7 @@ namespace {
 struct AcquireArguments {
     CaptureArguments common;
     std::filesystem::path output;
+    std::string segment;
     std::string coordinates = "half-difference";
     std::vector<int> tableSize;
     InterpolationArguments interpolation;
@@ -32,6 +34,7 @@ AcquireOptions optionsOf(const AcquireArguments& arguments)
 {
     AcquireOptions options = arguments.common.stageOptions();
     options.interpolation = arguments.interpolation.options(options.interpolation.threads);
+    options.segment = segmentOptionsFrom(arguments.segment);
     options.ladder = arguments.ladder.options(options.interpolation.threads);
     options.bake.range = tableRangeFromName(arguments.range);
     if (arguments.coordinates != "half-difference" && arguments.coordinates != "natural") {
@@ -91,7 +94,8 @@ void runAcquire(AcquireArguments& arguments)
         makeDebugFolder(common.debugFolder);
         saveNormalPictures(common.debugFolder, result.surface.normals);
         saveVerdictPictures(common.debugFolder, given, result.estimate);
-        saveMaterialPictures(common.debugFolder, result.surface.materials.front());
+        saveLabelPicture(common.debugFolder, result.segmentation, capture.width, capture.height);
+        saveMaterialPictures(common.debugFolder, result.surface.materials);
     }
 }
 
@@ -104,6 +108,11 @@ void addAcquireCommand(CLI::App& app)
         app.add_subcommand("acquire", "Photographs under a moving light to normals and a measured BRDF");
     arguments->common.addTo(*command);
     command->add_option("-o,--output", arguments->output, "The surface to write, NAME.nacre")->required();
+    command
+        ->add_option("--segment", arguments->segment,
+                     "Materials: a picture with a value or colour for each and black for none, auto to find them, "
+                     "auto:N to find N, none for one (default: the capture's labels, else none)")
+        ->option_text("FILE|auto[:N]|none");
     arguments->interpolation.addTo(*command);
     command
         ->add_option("--range", arguments->range,

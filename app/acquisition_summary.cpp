@@ -44,6 +44,32 @@ double meanOf(const std::vector<float>& values)
     return sum / static_cast<double>(values.size());
 }
 
+std::string describeMaterials(const Acquisition& acquisition)
+{
+    const Segmentation& segmentation = acquisition.segmentation;
+    if (segmentation.source.empty()) {
+        return "";
+    }
+    std::string text = fmt::format("materials    {}, labels {}\n", segmentation.regions.size(), segmentation.source);
+    for (const MaterialRegion& region : segmentation.regions) {
+        text += fmt::format("             {}: {} pixels, {} of them at no border\n", region.name, region.pixels,
+                            region.inner);
+    }
+    return text;
+}
+
+std::string describeTables(const Acquisition& acquisition)
+{
+    std::string text;
+    for (size_t i = 0; i < acquisition.fits.size(); ++i) {
+        const Material& material = acquisition.surface.materials[i];
+        text += describe(acquisition.fits[i].interpolation) + describe(acquisition.fits[i].ladder) +
+                fmt::format("table        {}{}\n", describe(material.table),
+                            acquisition.fits.size() > 1 ? " (" + material.name + ")" : "");
+    }
+    return text;
+}
+
 } // namespace
 
 std::string describe(const Capture& capture)
@@ -177,12 +203,12 @@ std::string describeNormals(const Capture& capture, const NormalEstimate& estima
 std::string describeBrdf(const Acquisition& acquisition)
 {
     const SampleCounts& counts = acquisition.samples;
-    const BrdfTable& table = acquisition.surface.materials.front().table;
-    return fmt::format("observations {} used; left out: {} in shadow or grazing, {} saturated, {} of pixels without a "
-                       "normal, {} to thin them out\n{}{}"
-                       "table        {}, scale {}\n",
+    return describeMaterials(acquisition) +
+           fmt::format("observations {} used; left out: {} in shadow or grazing, {} saturated, {} of pixels without a "
+                       "normal, {} to thin them out\n"
+                       "{}scale        {}\n",
                        counts.used, counts.shadowed, counts.saturated, counts.withoutNormal, counts.thinned,
-                       describe(acquisition.interpolation), describe(acquisition.ladder), describe(table),
+                       describeTables(acquisition),
                        acquisition.surface.scale == RadianceScale::absolute ? "absolute (1/sr)" : "relative");
 }
 
@@ -284,6 +310,16 @@ Json summaryOf(const Capture& capture, const Acquisition& acquisition)
     json["tableCoordinates"] = table.domain.coordinates == kNatural ? "natural" : "half-difference";
     json["tableThetaDMaxDegrees"] = glm::degrees(table.domain.thetaDMax);
     json["tableCoveredShare"] = coveredShare(table);
+    for (size_t i = 0; i < acquisition.segmentation.regions.size(); ++i) {
+        const MaterialRegion& region = acquisition.segmentation.regions[i];
+        const BrdfTable& own = acquisition.surface.materials[i].table;
+        json["materials"].push_back({{"name", region.name},
+                                     {"pixels", region.pixels},
+                                     {"innerPixels", region.inner},
+                                     {"tableSize", {own.size.x, own.size.y, own.size.z}},
+                                     {"tableCoveredShare", coveredShare(own)}});
+    }
+    json["labels"] = acquisition.segmentation.source;
     json["scale"] = acquisition.surface.scale == RadianceScale::absolute ? "absolute" : "relative";
     return json;
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include <fmt/format.h>
 #include <glm/geometric.hpp>
 
 #include "engine/scene/ball.h"
@@ -29,6 +30,21 @@ template <class Pick> Image sliceSheet(const BrdfTable& table, Pick&& pick)
     return sheet;
 }
 
+void savePicturesOf(const BrdfTable& table, const fs::path& folder, const std::string& suffix)
+{
+    const Image brdf = sliceSheet(table, [&](size_t texel) { return table.values[texel]; });
+    saveImage(folder / ("brdf" + suffix), displayImage(brdf, automaticExposure(brdf)), PixelType::uint8);
+    const Image coverage = sliceSheet(table, [&](size_t texel) { return glm::vec3(table.confidence[texel]); });
+    saveImage(folder / ("brdf_coverage" + suffix), coverage, PixelType::uint8);
+    const Light light{glm::normalize(glm::vec3(-0.4f, 0.5f, 0.77f))};
+    Image ball = makeBall(table, std::span(&light, 1), kBallSize).radiance;
+    const NormalMap disc = sphereNormalMap(kBallSize);
+    for (size_t i = 0; i < ball.values.size(); ++i) {
+        ball.values[i] *= disc.confidence[i / 3]; // beyond the rim a ball repeats it, for filtering
+    }
+    saveImage(folder / ("ball" + suffix), displayImage(ball, automaticExposure(ball)), PixelType::uint8);
+}
+
 } // namespace
 
 void makeDebugFolder(const fs::path& folder)
@@ -48,20 +64,11 @@ void saveNormalPictures(const fs::path& folder, const NormalMap& normals)
     saveImage(folder / "confidence.png", confidence, PixelType::uint8);
 }
 
-void saveMaterialPictures(const fs::path& folder, const Material& material)
+void saveMaterialPictures(const fs::path& folder, const std::vector<Material>& materials)
 {
-    const BrdfTable& table = material.table;
-    const Image brdf = sliceSheet(table, [&](size_t texel) { return table.values[texel]; });
-    saveImage(folder / "brdf.png", displayImage(brdf, automaticExposure(brdf)), PixelType::uint8);
-    const Image coverage = sliceSheet(table, [&](size_t texel) { return glm::vec3(table.confidence[texel]); });
-    saveImage(folder / "brdf_coverage.png", coverage, PixelType::uint8);
-    const Light light{glm::normalize(glm::vec3(-0.4f, 0.5f, 0.77f))};
-    Image ball = makeBall(table, std::span(&light, 1), kBallSize).radiance;
-    const NormalMap disc = sphereNormalMap(kBallSize);
-    for (size_t i = 0; i < ball.values.size(); ++i) {
-        ball.values[i] *= disc.confidence[i / 3]; // beyond the rim a ball repeats it, for filtering
+    for (size_t i = 0; i < materials.size(); ++i) {
+        savePicturesOf(materials[i].table, folder, materials.size() > 1 ? fmt::format("-{}.png", i + 1) : ".png");
     }
-    saveImage(folder / "ball.png", displayImage(ball, automaticExposure(ball)), PixelType::uint8);
 }
 
 } // namespace nacre

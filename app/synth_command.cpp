@@ -14,6 +14,7 @@ struct SynthArguments {
     SynthOptions options;
     std::filesystem::path output;
     std::filesystem::path fits;
+    std::vector<std::string> materials;
     std::string shape = "bumpy";
     std::string format = "png";
     int size = 256;
@@ -25,6 +26,8 @@ struct SynthArguments {
 constexpr const char* kExample =
     "Example:\n"
     "  nacre synth bronze --material 'ggx:diffuse=0.05,0.03,0.02;specular=0.6,0.4,0.25;alpha=0.25' --lights 48\n"
+    "  nacre synth dog --material 'ggx:diffuse=0.7,0.7,0.7;alpha=0.3' --material "
+    "'ggx:diffuse=0.03,0.03,0.03;alpha=0.1'\n"
     "  nacre synth plastic --material merl-sgd:red-plastic --fits FOLDER --exposures 1,0.25,0.0625\n"
     "Materials: lambert:R,G,B  ggx:diffuse=R,G,B;specular=R,G,B;alpha=A  merl-abc:NAME  merl-sgd:NAME\n"
     "  FILE.binary (MERL)  FILE.bsdf (RGL, isotropic RGB)  FILE.exr (our table)";
@@ -38,7 +41,8 @@ void describe(const SynthArguments& arguments, const SynthScene& scene)
                scene.view.seen.size(), o.sphereSize, o.sphereSize);
     fmt::print(
         "material {}; value = {:.6g} x radiance; noise {:.3g} of full scale; diffuse sphere's reflectance {:g}\n",
-        o.material, scene.sensor.gain, scene.sensor.noise, o.sphereReflectance.x);
+        o.patches.empty() ? o.material : fmt::format("{}, {} in patches", o.material, fmt::join(o.patches, ", ")),
+        scene.sensor.gain, scene.sensor.noise, o.sphereReflectance.x);
     fmt::print("truth in {}; seed {}\n", (arguments.output / "truth").string(), o.seed);
 }
 
@@ -69,6 +73,10 @@ void run(SynthArguments& arguments)
     }
     o.width = o.height = arguments.size;
     o.shadows = !arguments.noShadows;
+    if (!arguments.materials.empty()) {
+        o.material = arguments.materials.front();
+        o.patches.assign(arguments.materials.begin() + 1, arguments.materials.end());
+    }
     o.fitsFolder = fitsFolderFrom(arguments.fits);
     const SynthScene scene = makeSynthScene(o);
     writeSynthCapture(arguments.output, scene, arguments.force);
@@ -89,7 +97,12 @@ void addSynthCommand(CLI::App& app)
     command->add_option("--shape", arguments->shape, "bumpy (casts shadows) or sphere")->capture_default_str();
     command->add_option("--size", arguments->size, "Side of a photograph, pixels")->capture_default_str();
     command->add_option("--lights", o.lights, "Number of lights, one photograph each")->capture_default_str();
-    command->add_option("--material", o.material, "Reflectance, see below")->capture_default_str();
+    command
+        ->add_option("--material", arguments->materials,
+                     "Reflectance, see below; given several times, the object wears them in patches [" + o.material +
+                         "]")
+        ->option_text("SPEC")
+        ->allow_extra_args(false);
     command->add_option("--fits", arguments->fits,
                         "Folder of merl_abc_params.csv and merl_sgd_params.csv "
                         "[environment variable NACRE_FITS_DIR]");

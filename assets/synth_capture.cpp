@@ -32,6 +32,16 @@ void saveMask(const fs::path& file, const std::vector<uint8_t>& mask, int width,
     saveImage(file, picture, PixelType::uint8);
 }
 
+// Evenly spaced grey levels up to white for the materials in turn, black beside the object.
+void saveLabels(const fs::path& file, const SynthScene& scene)
+{
+    Image picture(scene.options.width, scene.options.height, 1);
+    for (const uint32_t pixel : scene.view.seen) {
+        picture.values[pixel] = static_cast<float>(scene.labels[pixel] + 1) / static_cast<float>(scene.models.size());
+    }
+    saveImage(file, picture, PixelType::uint8);
+}
+
 void savePhotograph(const fs::path& file, const Image& photograph, SynthFormat format)
 {
     saveImage(file, photograph, format == SynthFormat::exr ? PixelType::float32 : PixelType::uint16);
@@ -85,6 +95,9 @@ void writeMasks(const fs::path& folder, const SynthScene& scene)
 void writeTruth(const fs::path& folder, const SynthScene& scene)
 {
     saveNormalMap(folder / "normals.exr", scene.view.normals);
+    if (scene.models.size() > 1) {
+        saveLabels(folder / "labels.png", scene);
+    }
     writeTextFile(folder / "lights.json", lightsDocument(scene));
     writeTextFile(folder / "brdf.json", brdfDocument(scene));
 }

@@ -78,6 +78,11 @@ Json parametersOf(const SgdModel& m)
             {"c", jsonOf(m.c)},         {"k", jsonOf(m.k)},       {"theta0", jsonOf(m.theta0)}};
 }
 
+Json parametersOfModel(const BrdfModel& model)
+{
+    return std::visit([](const auto& m) { return parametersOf(m); }, model);
+}
+
 std::string textOf(const Json& json)
 {
     return json.dump(2) + "\n";
@@ -117,11 +122,15 @@ std::string brdfDocument(const SynthScene& scene)
     Json json{{"format", "nacre brdf"},
               {"version", 1},
               {"material", scene.options.material},
-              {"parameters", std::visit([](const auto& m) { return parametersOf(m); }, scene.model)},
+              {"parameters", parametersOfModel(scene.models[0])},
               {"radianceScale", scene.sensor.gain},
               {"noise", scene.sensor.noise},
               {"diffuseSphereReflectance", jsonOf(scene.options.sphereReflectance)},
               {"seed", scene.options.seed}};
+    for (size_t i = 0; i < scene.options.patches.size(); ++i) {
+        json["patches"].push_back(
+            {{"material", scene.options.patches[i]}, {"parameters", parametersOfModel(scene.models[i + 1])}});
+    }
     return textOf(json);
 }
 

@@ -18,7 +18,8 @@ struct SynthOptions {
     int height = 256;
     int sphereSize = 320; // side of the calibration spheres' photographs; their highlights must be some pixels wide
     std::string material = "ggx:diffuse=0.5,0.3,0.2;specular=0.04;alpha=0.2"; // material_specification.h
-    std::filesystem::path fitsFolder;                                         // of the published fits
+    std::vector<std::string> patches; // further materials: the object wears them and the first in patches
+    std::filesystem::path fitsFolder; // of the published fits
     int lights = 36;
     double capDegrees = 50;                  // largest angle between a light and the view
     double leastIrradiance = 0.7;            // of a light's channel, drawn evenly from [least, largest]

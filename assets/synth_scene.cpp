@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "assets/material_patches.h"
 #include "assets/synth_lights.h"
 #include "engine/scene/error.h"
 #include "engine/scene/material_specification.h"
@@ -21,6 +22,7 @@ constexpr double kExposedValue = 0.7;
 constexpr double kLargestSphereValue = 0.9;
 // Pixels that the percentiles are taken from, evenly spread over the object.
 constexpr size_t kPercentilePixels = 4096;
+constexpr size_t kMostMaterials = 16; // 30 patches
 
 void require(bool condition, const char* wrong, const char* expected)
 {
@@ -36,6 +38,7 @@ void check(const SynthOptions& o)
     require(o.lights >= 1, "--lights is not positive", "one light or more");
     require(o.capDegrees > 0 && o.capDegrees < 90, "--cap-degrees is out of range", "more than 0 and less than 90");
     require(o.noise >= 0 && o.noise < 1, "--noise is out of range", "0 or more and less than 1");
+    require(o.patches.size() < kMostMaterials, "--material is given too often", "16 times at most");
     require(!o.exposures.empty(), "--exposures is empty", "relative times such as 1,0.25");
     require(std::all_of(o.exposures.begin(), o.exposures.end(), [](double t) { return t > 0.0; }),
             "--exposures holds a time that is not positive", "relative times such as 1,0.25");
@@ -44,6 +47,15 @@ void check(const SynthOptions& o)
 BumpySolid solidOf(SynthShape shape)
 {
     return shape == SynthShape::sphere ? plainSphere() : bumpySolid();
+}
+
+std::vector<uint8_t> labelsOf(const OrthographicView& view, size_t materials)
+{
+    std::vector<uint8_t> labels(view.mask.size(), SynthScene::kNoMaterial);
+    for (const uint32_t pixel : view.seen) {
+        labels[pixel] = static_cast<uint8_t>(patchMaterial(glm::normalize(view.surfacePoint(pixel)), materials));
+    }
+    return labels;
 }
 
 bool isLit(const SynthScene& scene, uint32_t pixel, const Light& light)
@@ -55,7 +67,7 @@ bool isLit(const SynthScene& scene, uint32_t pixel, const Light& light)
 vec3 pixelRadiance(const SynthScene& scene, uint32_t pixel, const Light& light)
 {
     const vec3& n = scene.view.normals.normals[pixel];
-    vec3 f = evaluate(scene.model, n, light.direction, vec3(0, 0, 1));
+    vec3 f = evaluate(scene.models[scene.labels[pixel]], n, light.direction, vec3(0, 0, 1));
     return radianceFromBrdf(f, light.irradiance, dot(n, light.direction));
 }
 
@@ -107,10 +119,15 @@ Sensor exposedSensor(const SynthScene& scene)
 SynthScene makeSynthScene(const SynthOptions& options)
 {
     check(options);
-    BrdfModel model = parseMaterial(options.material, options.fitsFolder).model;
+    std::vector<BrdfModel> models{parseMaterial(options.material, options.fitsFolder).model};
+    for (const std::string& patch : options.patches) {
+        models.push_back(parseMaterial(patch, options.fitsFolder).model);
+    }
     BumpySolid solid = solidOf(options.shape);
     OrthographicView view = viewOf(solid, options.width, options.height, options.threads);
-    SynthScene scene{options, std::move(solid), std::move(view), synthLights(options), model, {}};
+    std::vector<uint8_t> labels = labelsOf(view, models.size());
+    SynthScene scene{
+        options, std::move(solid), std::move(view), synthLights(options), std::move(models), std::move(labels), {}};
     scene.sensor = exposedSensor(scene);
     return scene;
 }

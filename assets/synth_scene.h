@@ -13,11 +13,14 @@ namespace nacre {
 
 // What a synthetic capture photographs: the truth behind every file of it.
 struct SynthScene {
+    static constexpr uint8_t kNoMaterial = 255;
+
     SynthOptions options;
     BumpySolid solid;
     OrthographicView view;
     std::vector<Light> lights;
-    BrdfModel model;
+    std::vector<BrdfModel> models;
+    std::vector<uint8_t> labels; // per pixel of the photograph: index into models; kNoMaterial beside the object
     // Gain and noise serve the whole capture, spheres included; each photograph's values are gain * radiance.
     Sensor sensor;
 };

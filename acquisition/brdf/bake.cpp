@@ -72,7 +72,7 @@ glm::ivec3 tableSize(const TableDomain& domain)
     if (domain.coordinates == kNatural) {
         return {90, 90, 90};
     }
-    return {90, std::max(2, static_cast<int>(std::ceil(domain.thetaDMax * kRadian)) + 1), 45};
+    return {90, std::max(2, static_cast<int>(std::ceil(domain.thetaDMax * kRadian)) + 1), 23};
 }
 
 BakedBrdf bakeBrdf(const BrdfSamples& samples, const InterpolationOptions& interpolation, const BakeOptions& options)

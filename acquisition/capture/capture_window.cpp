@@ -67,6 +67,24 @@ std::vector<uint8_t> windowedMarks(const std::vector<uint8_t>& marks, const Capt
     return result;
 }
 
+std::vector<uint8_t> windowedLabels(const std::vector<uint8_t>& labels, const Capture& capture)
+{
+    const size_t boxPixels = static_cast<size_t>(capture.window.box) * capture.window.box;
+    std::vector<uint8_t> result(static_cast<size_t>(capture.width) * capture.height);
+    std::vector<uint8_t> box;
+    forEachBoxPixel(capture, [&](size_t pixel, size_t filePixel) {
+        box.push_back(labels[filePixel]);
+        if (box.size() == boxPixels) {
+            std::sort(box.begin(), box.end());
+            const auto count = [&](uint8_t label) { return std::count(box.begin(), box.end(), label); };
+            result[pixel] =
+                *std::max_element(box.begin(), box.end(), [&](uint8_t a, uint8_t b) { return count(a) < count(b); });
+            box.clear();
+        }
+    });
+    return result;
+}
+
 NormalMap windowedNormals(const NormalMap& normals, const Capture& capture, const std::filesystem::path& file)
 {
     const FileWindow& w = capture.window;

@@ -20,6 +20,10 @@ std::vector<uint8_t> windowedMask(const std::vector<uint8_t>& mask, const Captur
 // Marks of the files' size to the capture's: a box is marked where any of it is.
 std::vector<uint8_t> windowedMarks(const std::vector<uint8_t>& marks, const Capture& capture);
 
+// Labels of the files' size to the capture's: a box has the label that most of its pixels have, of several the
+// smallest.
+std::vector<uint8_t> windowedLabels(const std::vector<uint8_t>& labels, const Capture& capture);
+
 // Normals of the files' size to the capture's: a box has the mean direction where it has normals all over, else none.
 // Throws Error, naming `file`, where the size differs from the photographs'.
 NormalMap windowedNormals(const NormalMap& normals, const Capture& capture, const std::filesystem::path& file);

@@ -112,7 +112,7 @@ TEST(BrdfOnFits, LocalLinesBeatThePapersMeanAtTrueNormals)
         const BrdfSamples samples = samplesOf(subject.object.seen, trueNormals(subject), white, subject.object.lights);
         const auto errorOf = [&](InterpolationMethod method) {
             return transferError(makeInterpolant(samples, {.method = method}), samples.domain, glm::vec3(1),
-                                 subject.scene.model, otherLights(), 0);
+                                 subject.scene.models[0], otherLights(), 0);
         };
         const TransferError ours = errorOf(InterpolationMethod::localLinear),
                             theirs = errorOf(InterpolationMethod::paper);
@@ -150,7 +150,7 @@ TEST(BrdfOnFits, TransfersWithTheProgramsOwnNormals)
         }
         const BrdfSamples samples = samplesOf(seen, normals, albedo, prepared.lights);
         const TransferError error = transferError(makeInterpolant(samples, {}), samples.domain, sum / count,
-                                                  subject.scene.model, otherLights(), 0);
+                                                  subject.scene.models[0], otherLights(), 0);
         mean += error.psnr / std::size(kMaterials);
         RecordProperty(name, fmt::format("{:.1f} dB", error.psnr));
     }
