@@ -15,5 +15,6 @@ void addCompareCommand(CLI::App& app);
 void addStressCommand(CLI::App& app);
 void addEvaluateCommand(CLI::App& app);
 void addDemoCommand(CLI::App& app);
+void addBenchCommand(CLI::App& app);
 
 } // namespace nacre

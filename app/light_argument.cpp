@@ -7,14 +7,17 @@
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
 
 #include "engine/scene/error.h"
+#include "engine/scene/light_motion.h"
 
 namespace nacre {
 
 namespace {
 
 constexpr const char* kCaptured = "captured:";
+constexpr const char* kSoft = "soft:";
 
 Error lightError(const std::string& text, const std::string& wrong, const std::string& expected)
 {
@@ -44,6 +47,20 @@ std::optional<std::vector<float>> numbersOf(const std::string& text)
     }
 }
 
+// What follows "soft:DEGREES:", and the radius in radians; 0 for a light without it.
+std::pair<std::string, float> withoutSoftness(const std::string& text)
+{
+    if (text.rfind(kSoft, 0) != 0) {
+        return {text, 0.0f};
+    }
+    const size_t first = std::string(kSoft).size(), colon = text.find(':', first);
+    const auto radius = colon == std::string::npos ? std::nullopt : numbersOf(text.substr(first, colon - first));
+    if (!radius || radius->size() != 1 || !(radius->front() > 0) || radius->front() > 90) {
+        throw lightError(text, "has no radius", "soft:DEGREES:x,y,z with a radius above 0, at most 90");
+    }
+    return {text.substr(colon + 1), glm::radians(radius->front())};
+}
+
 Light capturedLight(const std::string& text, const std::vector<CapturedLight>& captured)
 {
     size_t number = 0;
@@ -65,6 +82,11 @@ bool isStraightBehind(const glm::vec3& direction)
 }
 
 } // namespace
+
+std::vector<float> numbersFromArgument(const std::string& text)
+{
+    return numbersOf(text).value_or(std::vector<float>{});
+}
 
 Light lightFromArgument(const std::string& text, const std::vector<CapturedLight>& captured)
 {
@@ -103,7 +125,11 @@ std::vector<Light> lightsFromArguments(const std::vector<std::string>& texts,
     }
     std::vector<Light> lights;
     for (const std::string& text : texts) {
-        lights.push_back(lightFromArgument(text, captured));
+        const auto [plain, radius] = withoutSoftness(text);
+        const Light light = lightFromArgument(plain, captured);
+        const std::vector<Light> bundle =
+            radius > 0 ? softLight(light, radius, kSoftLights) : std::vector<Light>{light};
+        lights.insert(lights.end(), bundle.begin(), bundle.end());
     }
     return lights;
 }

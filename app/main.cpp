@@ -48,6 +48,7 @@ int runCommandLine(int argc, char** argv)
     nacre::addEvaluateCommand(app);
     nacre::addStressCommand(app);
     nacre::addDemoCommand(app);
+    nacre::addBenchCommand(app);
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& e) {

@@ -1,38 +1,14 @@
-#include <algorithm>
-#include <cmath>
 #include <memory>
-#include <optional>
 
 #include <fmt/format.h>
-#include <glm/trigonometric.hpp>
 
 #include "app/commands.h"
-#include "app/light_argument.h"
-#include "app/size_argument.h"
-#include "engine/gpu/renderer.h"
-#include "engine/scene/brdf_tabulation.h"
-#include "engine/scene/error.h"
-#include "engine/scene/material_specification.h"
-#include "engine/scene/whole_file.h"
+#include "app/render_output.h"
+#include "app/render_scene.h"
 
 namespace nacre {
 
 namespace {
-
-struct RenderArguments {
-    std::filesystem::path surface;
-    std::string material; // in place of a surface's
-    std::filesystem::path fits;
-    std::vector<std::string> lights;
-    std::filesystem::path onto;
-    std::string normalY = "gl";
-    std::string size;
-    std::optional<float> exposure; // stops
-    std::string device;
-    std::filesystem::path output;
-    bool force = false;
-    bool quiet = false;
-};
 
 // Software devices are called as their driver is: not twice.
 std::string describe(const DeviceInfo& device)
@@ -41,126 +17,51 @@ std::string describe(const DeviceInfo& device)
     return same ? device.driver : fmt::format("{} ({})", device.name, device.driver);
 }
 
-// The picture's kind follows from its extension: EXR keeps linear radiance, PNG is exposed for the eye.
-bool isForTheEye(const RenderArguments& arguments)
+std::string describePath(Renderer& renderer)
 {
-    const std::string extension = arguments.output.extension().string();
-    if (extension != ".png" && extension != ".exr") {
-        throw Error(arguments.output, "is no picture that render writes", ".png (8-bit sRGB) or .exr (linear radiance)",
-                    Error::kUsage);
+    if (renderer.pathTaken() == RenderPath::direct) {
+        const std::string reason = renderer.whyDirect();
+        return reason.empty() ? "direct" : "direct: " + reason;
     }
-    if (extension == ".exr" && arguments.exposure) {
-        throw Error(arguments.output, "knows no exposure, EXR holds linear radiance", "--exposure with a .png only",
-                    Error::kUsage);
+    std::string sizes;
+    for (const BallSize& size : renderer.ballSizes()) {
+        sizes += fmt::format("{}{} texels, shown at {}", sizes.empty() ? "" : "; ", size.radiance, size.display);
     }
-    if (arguments.exposure && !std::isfinite(*arguments.exposure)) {
-        throw Error("", "--exposure is not finite", "a number of stops", Error::kUsage);
-    }
-    return extension == ".png";
+    return fmt::format("ball ({}), {:.1f} MiB cached", sizes, renderer.cachedBytes() / 1048576.0);
 }
 
-NormalY normalYOf(const RenderArguments& arguments)
+void report(const Scene& scene, Renderer& renderer, const RenderArguments& arguments, const RenderOutput& output,
+            const RenderedOutput& rendered)
 {
-    if (arguments.normalY != "gl" && arguments.normalY != "dx") {
-        throw Error("", fmt::format("--normal-y {} is not known", arguments.normalY),
-                    "gl (green points up) or dx (down)", Error::kUsage);
+    noteLightsBeyondTables(scene);
+    const NormalMap& normals = scene.surface.normals;
+    fmt::print("rendered     {}x{} pixels under {} light{}", normals.width, normals.height, scene.lights.size(),
+               scene.lights.size() == 1 ? "" : "s");
+    fmt::print("{}\ndevice       {}\n", output.frames == 1 ? "" : fmt::format(", {} frames", output.frames),
+               describe(renderer.context().info()));
+    fmt::print("path         {}\nmemory       {:.1f} MiB on the device\n",
+               output.isRadiance ? "direct: EXR holds radiance" : describePath(renderer),
+               renderer.deviceBytes() / 1048576.0);
+    if (!output.isRadiance) {
+        fmt::print("exposure     {:+.2f} stops{}\n", rendered.stops, arguments.exposure ? "" : " (automatic)");
     }
-    return arguments.normalY == "gl" ? NormalY::gl : NormalY::dx;
+    fmt::print("wrote        {}{}\n", rendered.first.string(), output.frames > 1 ? " and so on" : "");
 }
 
-// A named material as a surface without pixels: --onto gives the normals.
-Surface surfaceOfMaterial(const RenderArguments& arguments)
+void runRender(RenderArguments arguments)
 {
-    const NamedBrdf named = parseMaterial(arguments.material, fitsFolderFrom(arguments.fits));
-    const BrdfTable* table = tableOf(named.model);
-    Surface surface;
-    surface.materials.push_back({named.name, table ? *table : tabulatedBrdf(named.model), {}});
-    return surface;
-}
-
-void checkMaterialArguments(const RenderArguments& arguments)
-{
-    if (arguments.surface.empty() == arguments.material.empty()) {
-        throw Error("", "one thing to render is needed", "either SURFACE or --material SPEC", Error::kUsage);
-    }
-    if (!arguments.material.empty() && arguments.onto.empty()) {
-        throw Error("", "--material has no shape of its own", "--onto NORMALS or --onto NAME.nacre", Error::kUsage);
-    }
-}
-
-// The surface to draw: the measured one, or its first material on other normals; fitted into --size where given.
-Surface surfaceToDraw(const RenderArguments& arguments, Surface measured, const Context& context)
-{
-    if (!arguments.onto.empty()) {
-        if (measured.materials.empty()) {
-            throw Error(arguments.surface, "holds no material", "one to put onto other normals");
-        }
-        const NormalMap normals = std::filesystem::is_directory(arguments.onto)
-                                      ? loadSurface(arguments.onto).normals
-                                      : loadNormalMap(arguments.onto, normalYOf(arguments));
-        measured = transferredSurface(normals, measured.materials.front());
-    }
-    if (!arguments.size.empty()) {
-        const PictureSize size = sizeFromArgument("--size", arguments.size);
-        requirePictureSize(context, size.width, size.height); // before memory for it is asked for
-        measured = fittedSurface(measured, size.width, size.height);
-    }
-    return measured;
-}
-
-// A table answers with its border's values beyond the directions that it spans: said, not refused.
-void noteLightsBeyondTable(const Scene& scene)
-{
-    for (const Material& material : scene.surface.materials) {
-        const TableDomain& domain = material.table.domain;
-        const auto beyond = std::count_if(scene.lights.begin(), scene.lights.end(), [&](const Light& light) {
-            constexpr float kTolerance = 0.001f; // radians
-            const float thetaD = halfDifferenceFromDirections(scene.view, light.direction, scene.view).thetaD;
-            return domain.coordinates == kHalfDifference && thetaD > domain.thetaDMax + kTolerance;
-        });
-        if (beyond > 0) {
-            fmt::print(stderr,
-                       "nacre: note: the table of '{}' spans lights up to {:.0f} degrees from the view; of {} given {} "
-                       "lie beyond, there its last values are used\n",
-                       material.name, 2 * glm::degrees(domain.thetaDMax), scene.lights.size(), beyond);
-        }
-    }
-}
-
-std::vector<ImageAttribute> attributesOf(const DeviceInfo& device)
-{
-    return {{"Software", "nacre " NACRE_VERSION}, {"Device", device.name}, {"Driver", device.driver}};
-}
-
-void runRender(const RenderArguments& arguments)
-{
-    const bool forTheEye = isForTheEye(arguments);
-    normalYOf(arguments);
-    checkMaterialArguments(arguments);
-    WholeOutput(arguments.output, arguments.force); // refuses now what it would refuse after the work
-    Surface measured = arguments.material.empty() ? loadSurface(arguments.surface) : surfaceOfMaterial(arguments);
-    Scene scene;
-    scene.lights = lightsFromArguments(arguments.lights, measured.lights);
+    completeFromState(arguments);
+    const RenderOutput output = checkedOutput(arguments);
+    checkSceneArguments(arguments);
     const Context context(arguments.device);
-    scene.surface = surfaceToDraw(arguments, std::move(measured), context);
-    const Frame frame = Renderer(context).render(scene);
-
-    const float stops = arguments.exposure ? *arguments.exposure : automaticExposure(frame);
-    if (forTheEye) {
-        saveImage(arguments.output, displayImage(frame, stops), PixelType::uint8, attributesOf(context.info()));
-    } else {
-        saveImage(arguments.output, frame, PixelType::float32, attributesOf(context.info()));
+    const Scene scene = sceneFromArguments(arguments, context);
+    Renderer renderer(context);
+    renderer.setSurface(scene.surface);
+    renderer.setView(scene.view);
+    const RenderedOutput rendered = renderFrames(renderer, arguments, output, scene.lights);
+    if (!arguments.quiet) {
+        report(scene, renderer, arguments, output, rendered);
     }
-    if (arguments.quiet) {
-        return;
-    }
-    noteLightsBeyondTable(scene);
-    fmt::print("rendered     {}x{} pixels under {} light{}\ndevice       {}\n", frame.width, frame.height,
-               scene.lights.size(), scene.lights.size() == 1 ? "" : "s", describe(context.info()));
-    if (forTheEye) {
-        fmt::print("exposure     {:+.2f} stops{}\n", stops, arguments.exposure ? "" : " (automatic)");
-    }
-    fmt::print("wrote        {}\n", arguments.output.string());
 }
 
 } // namespace
@@ -180,19 +81,32 @@ void addRenderCommand(CLI::App& app)
     command
         ->add_option("--light", arguments->lights,
                      "x,y,z[,r,g,b]: direction towards the light (x right, y up, z towards the camera), irradiance "
-                     "(default 1); or captured:N. Repeatable (default: captured:1)")
+                     "(default 1); or captured:N; soft:DEGREES: before it spreads it. Repeatable (default: captured:1)")
         ->allow_extra_args(false);
-    CLI::Option* onto =
-        command->add_option("--onto", arguments->onto,
-                            "Put the first material onto these camera-frame normals: .exr, .png (16-bit "
-                            "best; n = 2v - 1, black = no data) or another NAME.nacre; a tangent-space "
-                            "map makes a flat piece seen from the front");
-    command->add_option("--normal-y", arguments->normalY, "Green of --onto's picture: gl (up) or dx (down)")
-        ->needs(onto)
-        ->capture_default_str();
+    command->add_option("--onto", arguments->onto,
+                        "Put the first material onto these camera-frame normals: .exr, .png (16-bit "
+                        "best; n = 2v - 1, black = no data) or another NAME.nacre; a tangent-space "
+                        "map makes a flat piece seen from the front");
+    command->add_option("--normal-y", arguments->normalY, "Green of --onto's picture: gl (up, default) or dx (down)");
     command->add_option("--size", arguments->size, "WxH pixels to fit the surface into (default: its own size)");
     command->add_option("--exposure", arguments->exposure,
                         "Stops, on PNG only (default: the 99th percentile of radiance at 0.9)");
+    command->add_option("--environment", arguments->environment,
+                        "Light from all around: latitude-longitude picture, .exr or .hdr, +z in its middle");
+    command->add_option("--environment-lights", arguments->environmentLights,
+                        "At most so many directional lights stand for it (default: 256)");
+    command->add_option("--environment-turn", arguments->environmentTurn, "Degrees about the vertical axis");
+    command->add_option("--view", arguments->view,
+                        "x,y,z towards another distant viewer of the same normals (default: 0,0,1)");
+    command->add_option("--path", arguments->path,
+                        "auto, direct (a table lookup per pixel and light) or ball (one lookup a pixel) [auto]");
+    command->add_option("--tone", arguments->tone, "Tone curve of PNG: srgb or filmic [srgb]");
+    command->add_option("--frames", arguments->frames, "A sequence of so many: NAME_0001.png and so on");
+    command->add_option("--motion", arguments->motion,
+                        "How lights move over --frames: turntable (about the view), sweep (left to right), none "
+                        "[turntable]");
+    command->add_option("--state", arguments->state,
+                        "JSON file whose keys are these options; the command line wins (docs/formats.md)");
     command->add_option("--device", arguments->device, "Vulkan device: number or part of its name, see nacre info");
     command->add_option("-o,--output", arguments->output, "Picture to write: .png (8-bit sRGB) or .exr (linear)")
         ->required();
@@ -200,7 +114,8 @@ void addRenderCommand(CLI::App& app)
     command->add_flag("--quiet", arguments->quiet, "Print nothing");
     command->footer("Example:\n  nacre render horse.nacre --light=-0.5,0.3,1 --light 0.6,0,1,1,0.8,0.6 --size 640x480 "
                     "-o horse.png\n  nacre render horse.nacre --onto cloth.exr -o cloth.exr\n"
-                    "  nacre render --material paper_white_rgb.bsdf --onto cloth.exr -o paper.png");
+                    "  nacre render --material paper_white_rgb.bsdf --onto cloth.exr -o paper.png\n"
+                    "  nacre render horse.nacre --environment studio.hdr --frames 48 -o horse.png");
     command->callback([arguments] { runRender(*arguments); });
 }
 

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "engine/gpu/check.h"
+#include "fullscreen_vert.h"
 
 namespace nacre {
 namespace {
@@ -51,22 +52,38 @@ ShaderModule makeShaderModule(VkDevice device, std::span<const uint32_t> code)
     return {device, module};
 }
 
-VkPipelineShaderStageCreateInfo stage(VkShaderStageFlagBits which, const ShaderModule& module)
+VkPipelineShaderStageCreateInfo stage(VkShaderStageFlagBits which, const ShaderModule& module,
+                                      const VkSpecializationInfo* constants = nullptr)
 {
     return {.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO,
             .stage = which,
             .module = module.get(),
-            .pName = "main"};
+            .pName = "main",
+            .pSpecializationInfo = constants};
+}
+
+std::vector<VkSpecializationMapEntry> constantEntries(size_t count)
+{
+    std::vector<VkSpecializationMapEntry> entries(count);
+    for (uint32_t i = 0; i < count; ++i) {
+        entries[i] = {.constantID = i, .offset = i * uint32_t{sizeof(int32_t)}, .size = sizeof(int32_t)};
+    }
+    return entries;
 }
 
 // The fixed parts that every pass has: a triangle without vertices, one sample, a viewport of the target's size that
-// is set while recording, addition as the blend.
+// is set while recording.
 VkPipeline createPipeline(VkDevice device, VkPipelineLayout layout, const PassDescription& pass)
 {
-    const ShaderModule vertex = makeShaderModule(device, pass.vertexShader);
+    const ShaderModule vertex = makeShaderModule(device, fullscreen_vert);
     const ShaderModule fragment = makeShaderModule(device, pass.fragmentShader);
+    const std::vector<VkSpecializationMapEntry> entries = constantEntries(pass.constants.size());
+    const VkSpecializationInfo constants{.mapEntryCount = static_cast<uint32_t>(entries.size()),
+                                         .pMapEntries = entries.data(),
+                                         .dataSize = pass.constants.size_bytes(),
+                                         .pData = pass.constants.data()};
     const std::array stages = {stage(VK_SHADER_STAGE_VERTEX_BIT, vertex),
-                               stage(VK_SHADER_STAGE_FRAGMENT_BIT, fragment)};
+                               stage(VK_SHADER_STAGE_FRAGMENT_BIT, fragment, &constants)};
     const VkPipelineVertexInputStateCreateInfo noVertices{
         .sType = VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO};
     const VkPipelineInputAssemblyStateCreateInfo triangles{
@@ -79,7 +96,7 @@ VkPipeline createPipeline(VkDevice device, VkPipelineLayout layout, const PassDe
     const VkPipelineMultisampleStateCreateInfo oneSample{.sType =
                                                              VK_STRUCTURE_TYPE_PIPELINE_MULTISAMPLE_STATE_CREATE_INFO,
                                                          .rasterizationSamples = VK_SAMPLE_COUNT_1_BIT};
-    const VkPipelineColorBlendAttachmentState addition{.blendEnable = VK_TRUE,
+    const VkPipelineColorBlendAttachmentState blending{.blendEnable = pass.blend == Blend::add ? VK_TRUE : VK_FALSE,
                                                        .srcColorBlendFactor = VK_BLEND_FACTOR_ONE,
                                                        .dstColorBlendFactor = VK_BLEND_FACTOR_ONE,
                                                        .colorBlendOp = VK_BLEND_OP_ADD,
@@ -91,7 +108,7 @@ VkPipeline createPipeline(VkDevice device, VkPipelineLayout layout, const PassDe
                                                            VK_COLOR_COMPONENT_B_BIT | VK_COLOR_COMPONENT_A_BIT};
     const VkPipelineColorBlendStateCreateInfo blend{.sType = VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO,
                                                     .attachmentCount = 1,
-                                                    .pAttachments = &addition};
+                                                    .pAttachments = &blending};
     const std::array dynamicStates = {VK_DYNAMIC_STATE_VIEWPORT, VK_DYNAMIC_STATE_SCISSOR};
     const VkPipelineDynamicStateCreateInfo dynamic{.sType = VK_STRUCTURE_TYPE_PIPELINE_DYNAMIC_STATE_CREATE_INFO,
                                                    .dynamicStateCount = dynamicStates.size(),

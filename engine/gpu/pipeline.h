@@ -14,17 +14,22 @@ struct ShaderBinding {
     VkDescriptorType type;
 };
 
-// A pass that covers the whole target with one triangle and adds what it writes to what is there.
+// What happens to what a target holds.
+enum class Blend { replace, add };
+
+// A pass that covers its area of the target with one triangle.
 struct PassDescription {
-    std::span<const uint32_t> vertexShader; // SPIR-V
-    std::span<const uint32_t> fragmentShader;
-    std::span<const ShaderBinding> bindings; // of set 0, pushed, seen by the fragment shader
-    uint32_t pushConstantBytes = 0;          // seen by the fragment shader
+    std::span<const uint32_t> fragmentShader; // SPIR-V
+    std::span<const int32_t> constants;       // specialisation constants 0, 1, ...
+    std::span<const ShaderBinding> bindings;  // of set 0, pushed, seen by the fragment shader
+    uint32_t pushConstantBytes = 0;           // seen by the fragment shader
     VkFormat targetFormat = VK_FORMAT_UNDEFINED;
+    Blend blend = Blend::replace;
 };
 
 class Pipeline {
 public:
+    Pipeline() = default;
     Pipeline(const Context& context, const PassDescription& pass);
 
     VkPipeline get() const { return pipeline_.get(); }

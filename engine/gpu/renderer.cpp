@@ -3,144 +3,309 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
+#include <cmath>
 
-#include "direct_frag.h"
-#include "fullscreen_vert.h"
+#include <fmt/format.h>
+
+#include "ball_frag.h"
+#include "display_frag.h"
+#include "engine/scene/error.h"
 #include "shared/layout.h"
 
 namespace nacre {
 namespace {
 
-constexpr std::array kBindings = {ShaderBinding{kBindingNormals, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER},
-                                  ShaderBinding{kBindingAlbedo, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER},
-                                  ShaderBinding{kBindingTable, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER},
-                                  ShaderBinding{kBindingLights, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER}};
-
-// Vulkan guarantees 16 KiB of uniform buffer and 256 bytes as the coarsest offset: a pass's lights keep to both.
-constexpr VkDeviceSize kLightBytesPerPass = kMaxLightsPerPass * sizeof(GpuLight);
-static_assert(kLightBytesPerPass <= 16384 && kLightBytesPerPass % 256 == 0);
-static_assert(sizeof(DirectConstants) <= 128, "push constants that every device has");
-
-PassDescription directPass()
+bool isFromTheFront(const glm::vec3& view)
 {
-    return {.vertexShader = fullscreen_vert,
-            .fragmentShader = direct_frag,
-            .bindings = kBindings,
-            .pushConstantBytes = sizeof(DirectConstants),
-            .targetFormat = Texture::kFormat};
+    return view == glm::vec3(0, 0, 1);
 }
 
-VkExtent3D pictureExtent(const NormalMap& map)
-{
-    return {static_cast<uint32_t>(map.width), static_cast<uint32_t>(map.height), 1};
-}
-
-std::vector<glm::vec4> normalTexels(const NormalMap& map)
-{
-    std::vector<glm::vec4> texels(map.normals.size());
-    for (size_t i = 0; i < texels.size(); ++i) {
-        texels[i] = glm::vec4(map.normals[i], map.confidence[i]);
-    }
-    return texels;
-}
-
-std::vector<glm::vec4> albedoTexels(const Surface& surface)
-{
-    const std::vector<float>& albedo = surface.albedo.values;
-    std::vector<glm::vec4> texels(surface.labels.size());
-    for (size_t i = 0; i < texels.size(); ++i) {
-        const auto label = static_cast<float>(surface.labels[i]);
-        texels[i] = albedo.empty() ? glm::vec4(1, 1, 1, label)
-                                   : glm::vec4(albedo[3 * i], albedo[3 * i + 1], albedo[3 * i + 2], label);
-    }
-    return texels;
-}
-
-Texture uploadTable(const Context& context, const BrdfTable& table)
-{
-    std::vector<glm::vec4> texels(table.values.size());
-    std::transform(table.values.begin(), table.values.end(), texels.begin(),
-                   [](const glm::vec3& f) { return glm::vec4(f, 0); });
-    const glm::uvec3 size(table.size);
-    return uploadTexture(context, VK_IMAGE_TYPE_3D, {size.x, size.y, size.z}, texels);
-}
-
-size_t lightPassCount(size_t lights)
-{
-    return (lights + kMaxLightsPerPass - 1) / kMaxLightsPerPass;
-}
-
-void beginRendering(VkCommandBuffer commands, const Texture& target)
-{
-    const VkExtent2D size{target.extent().width, target.extent().height};
-    const VkRenderingAttachmentInfo color{.sType = VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO,
-                                          .imageView = target.view(),
-                                          .imageLayout = kDrawnTo.layout,
-                                          .loadOp = VK_ATTACHMENT_LOAD_OP_CLEAR,
-                                          .storeOp = VK_ATTACHMENT_STORE_OP_STORE,
-                                          .clearValue = {.color = {.float32 = {0, 0, 0, 1}}}};
-    const VkRenderingInfo info{.sType = VK_STRUCTURE_TYPE_RENDERING_INFO,
-                               .renderArea = {.extent = size},
-                               .layerCount = 1,
-                               .colorAttachmentCount = 1,
-                               .pColorAttachments = &color};
-    vkCmdBeginRendering(commands, &info);
-    const VkViewport viewport{
-        .width = static_cast<float>(size.width), .height = static_cast<float>(size.height), .maxDepth = 1};
-    const VkRect2D everything{.extent = size};
-    vkCmdSetViewport(commands, 0, 1, &viewport);
-    vkCmdSetScissor(commands, 0, 1, &everything);
-}
-
-// One draw's resources, in the order of kBindings.
-struct DirectInputs {
-    VkDescriptorImageInfo normals;
-    VkDescriptorImageInfo albedo;
-    VkDescriptorImageInfo table;
-    VkDescriptorBufferInfo lights;
-};
-
-VkDescriptorImageInfo sampled(const Sampler& sampler, const Texture& texture)
-{
-    return {.sampler = sampler.get(), .imageView = texture.view(), .imageLayout = kSampled.layout};
-}
-
-void pushInputs(const Context& context, VkCommandBuffer commands, VkPipelineLayout layout, const DirectInputs& inputs)
-{
-    const std::array images = {&inputs.normals, &inputs.albedo, &inputs.table};
-    std::array<VkWriteDescriptorSet, kBindings.size()> writes{};
-    for (size_t i = 0; i < writes.size(); ++i) {
-        writes[i] = {.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
-                     .dstBinding = kBindings[i].binding,
-                     .descriptorCount = 1,
-                     .descriptorType = kBindings[i].type,
-                     .pImageInfo = i < images.size() ? images[i] : nullptr,
-                     .pBufferInfo = i < images.size() ? nullptr : &inputs.lights};
-    }
-    context.pushDescriptorSet(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout, 0, writes.size(), writes.data());
-}
+constexpr std::array kBallBindings = {ShaderBinding{kBindingNormals, kTextureInput},
+                                      ShaderBinding{kBindingAlbedo, kTextureInput},
+                                      ShaderBinding{kBindingInput, kTextureInput}};
+constexpr std::array kDisplayBindings = {ShaderBinding{kBindingInput, kTextureInput}};
 
 } // namespace
 
-Renderer::Renderer(const Context& context)
-    : context_(context), pipeline_(context, directPass()), nearest_(makeSampler(context, VK_FILTER_NEAREST)),
-      linear_(makeSampler(context, VK_FILTER_LINEAR))
+Renderer::Renderer(const Context& context, VkDeviceSize cacheBytes)
+    : context_(context), nearest_(makeSampler(context, VK_FILTER_NEAREST)), direct_(context),
+      balls_(context, direct_, cacheBytes), cacheBytes_(cacheBytes)
 {
 }
 
-void Renderer::setSurface(const Surface& surface)
+void Renderer::setSurface(Surface surface)
 {
-    const VkExtent3D extent = pictureExtent(surface.normals);
-    normals_ = uploadTexture(context_, VK_IMAGE_TYPE_2D, extent, normalTexels(surface.normals));
-    albedo_ = uploadTexture(context_, VK_IMAGE_TYPE_2D, extent, albedoTexels(surface));
+    requirePictureSize(context_, surface.normals.width, surface.normals.height);
     tables_.clear();
     for (const Material& material : surface.materials) {
-        tables_.push_back({uploadTable(context_, material.table), material.table.domain});
+        tables_.push_back(uploadTable(context_, material.table));
     }
-    target_ = Texture(context_, VK_IMAGE_TYPE_2D, extent,
-                      VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT);
-    readback_ =
-        Buffer(context_, size_t{extent.width} * extent.height * sizeof(glm::vec4), VK_BUFFER_USAGE_TRANSFER_DST_BIT);
+    surface_ = std::move(surface);
+    plain_ = isPlain(surface_);
+    pixels_.clear();
+    ballSizes_.clear();
+    radiance_.reset();
+    picture_.reset();
+    ballsAreStale_ = radianceIsStale_ = pictureIsStale_ = true;
+}
+
+void Renderer::setLights(std::span<const Light> lights)
+{
+    if (!std::equal(lights.begin(), lights.end(), lights_.begin(), lights_.end())) {
+        lights_.assign(lights.begin(), lights.end());
+        lightsAreStale_ = radianceIsStale_ = pictureIsStale_ = true;
+    }
+}
+
+void Renderer::setView(const glm::vec3& view)
+{
+    if (view != view_) {
+        view_ = view;
+        lightsAreStale_ = radianceIsStale_ = pictureIsStale_ = true;
+    }
+}
+
+void Renderer::setPath(RenderPath path)
+{
+    pictureIsStale_ = pictureIsStale_ || path != path_;
+    path_ = path;
+}
+
+void Renderer::setDisplay(const Display& display)
+{
+    pictureIsStale_ = pictureIsStale_ || !(display == display_);
+    display_ = display;
+}
+
+const std::vector<BallSize>& Renderer::ballSizes()
+{
+    while (ballSizes_.size() < surface_.materials.size()) {
+        ballSizes_.push_back(measuredBallSize(surface_.materials[ballSizes_.size()].table));
+    }
+    return ballSizes_;
+}
+
+std::string Renderer::whyDirect()
+{
+    if (!isFromTheFront(view_)) {
+        return "balls are for the view from the front";
+    }
+    for (size_t i = 0; i < ballSizes().size(); ++i) {
+        if (ballSizes()[i].radiance == 0) {
+            return fmt::format("the highlight of '{}' is too sharp for a ball", surface_.materials[i].name);
+        }
+    }
+    const VkDeviceSize bytes = BallCache::leastBytes(ballSizes(), !plain_, lights_.size());
+    if (surface_.materials.empty() || bytes > cacheBytes_) {
+        return fmt::format("the balls of {} material(s) take {} MiB, {} may be cached", surface_.materials.size(),
+                           bytes >> 20, cacheBytes_ >> 20);
+    }
+    return {};
+}
+
+RenderPath Renderer::pathTaken()
+{
+    if (path_ == RenderPath::direct) {
+        return RenderPath::direct;
+    }
+    const std::string reason = whyDirect();
+    if (path_ == RenderPath::ball && !reason.empty()) {
+        throw Error("", "there is no ball for this: " + reason, "--path auto or --path direct", Error::kUsage);
+    }
+    return reason.empty() ? RenderPath::ball : RenderPath::direct;
+}
+
+const PixelTextures& Renderer::pixels(Precision precision)
+{
+    auto found = pixels_.find(precision);
+    if (found == pixels_.end()) {
+        found = pixels_.emplace(precision, uploadPixels(context_, surface_, precision)).first;
+    }
+    return found->second;
+}
+
+Renderer::Target& Renderer::target(std::optional<Target>& target, VkFormat format, VkDeviceSize texelBytes)
+{
+    if (!target) {
+        const VkExtent3D extent{static_cast<uint32_t>(surface_.normals.width),
+                                static_cast<uint32_t>(surface_.normals.height), 1};
+        target.emplace(Target{makeTarget(context_, extent, format),
+                              Buffer(context_, VkDeviceSize{extent.width} * extent.height * texelBytes,
+                                     VK_BUFFER_USAGE_TRANSFER_DST_BIT)});
+    }
+    return *target;
+}
+
+void Renderer::uploadLights()
+{
+    if (lightsAreStale_) {
+        groups_.upload(context_, lights_, view_);
+        lightsAreStale_ = false;
+    }
+}
+
+// One draw per material and group of lights; what they write adds up.
+void Renderer::recordDirect(VkCommandBuffer commands, const Texture& into, const PixelTextures& pixels)
+{
+    imageBarrier(commands, into.image(), kDiscarded, kDrawnTo);
+    beginRendering(commands, into, Load::clear);
+    for (size_t material = 0; material < tables_.size(); ++material) {
+        direct_.record(
+            commands,
+            {pixels.normals, plain_ ? nullptr : &pixels.albedo, tables_[material], static_cast<int>(material)}, groups_,
+            0, lights_.size());
+    }
+    vkCmdEndRendering(commands);
+}
+
+const Pipeline& Renderer::framePipeline(RenderPath path)
+{
+    const bool ball = path == RenderPath::ball, modulated = ball && !plain_;
+    const std::array key = {int{ball}, int{modulated}, display_.toneCurve};
+    auto found = pipelines_.find(key);
+    if (found == pipelines_.end()) {
+        PassDescription pass{.fragmentShader = display_frag,
+                             .bindings = kDisplayBindings,
+                             .pushConstantBytes = sizeof(DisplayConstants),
+                             .targetFormat = kCodeFormat};
+        if (ball) {
+            pass.fragmentShader = ball_frag;
+            pass.bindings = kBallBindings;
+            pass.pushConstantBytes = sizeof(BallConstants);
+        }
+        static_assert(kConstantModulated == 0 && kConstantToneCurve == 1);
+        pass.constants = std::span(key).subspan(1);
+        found = pipelines_.emplace(key, Pipeline(context_, pass)).first;
+    }
+    return found->second;
+}
+
+void Renderer::drawDirectPicture()
+{
+    Texture& codes = target(picture_, kCodeFormat, 4).texture;
+    Texture& radiance = target(radiance_, kFloatFormat, sizeof(glm::vec4)).texture;
+    const PixelTextures& inputs = pixels(Precision::compact);
+    const Pipeline& encode = framePipeline(RenderPath::direct);
+    context_.run([&](VkCommandBuffer commands) {
+        recordDirect(commands, radiance, inputs);
+        imageBarrier(commands, radiance.image(), kDrawnTo, kSampled);
+        imageBarrier(commands, codes.image(), kDiscarded, kDrawnTo);
+        beginRendering(commands, codes, Load::clear);
+        const std::array shaderInputs = {textureInput(kBindingInput, nearest_, radiance)};
+        draw(context_, commands, encode, shaderInputs,
+             bytesOf(DisplayConstants{.gain = std::exp2(display_.exposureStops)}));
+        vkCmdEndRendering(commands);
+        imageBarrier(commands, codes.image(), kDrawnTo, kCopiedFrom);
+    });
+    radianceIsStale_ = true; // what the target holds is the picture's, from 16-bit inputs
+}
+
+void Renderer::updateBalls()
+{
+    if (pathTaken() != RenderPath::ball) {
+        return;
+    }
+    uploadLights();
+    if (ballsAreStale_) {
+        balls_.setMaterials(ballSizes(), !plain_);
+        ballsAreStale_ = false;
+    }
+    balls_.setLights(lights_);
+    balls_.setDisplay(display_);
+    if (balls_.prepare()) {
+        context_.run([&](VkCommandBuffer commands) { balls_.record(commands, tables_, groups_); });
+    }
+}
+
+void Renderer::drawBallPicture()
+{
+    updateBalls();
+    Texture& codes = target(picture_, kCodeFormat, 4).texture;
+    const PixelTextures& inputs = pixels(Precision::compact);
+    const Texture& albedo = plain_ ? inputs.normals : inputs.albedo; // bound, but not read where plain
+    const Pipeline& frame = framePipeline(RenderPath::ball);
+    const BallConstants constants{.size = balls_.displaySize(),
+                                  .columns = static_cast<float>(balls_.columns()),
+                                  .materials = static_cast<int>(tables_.size())};
+    context_.run([&](VkCommandBuffer commands) {
+        imageBarrier(commands, codes.image(), kDiscarded, kDrawnTo);
+        beginRendering(commands, codes, Load::clear);
+        const std::array shaderInputs = {textureInput(kBindingNormals, nearest_, inputs.normals),
+                                         textureInput(kBindingAlbedo, nearest_, albedo),
+                                         textureInput(kBindingInput, nearest_, balls_.displayBalls())};
+        draw(context_, commands, frame, shaderInputs, bytesOf(constants));
+        vkCmdEndRendering(commands);
+        imageBarrier(commands, codes.image(), kDrawnTo, kCopiedFrom);
+    });
+}
+
+void Renderer::drawPicture()
+{
+    if (!pictureIsStale_) {
+        return;
+    }
+    uploadLights();
+    if (pathTaken() == RenderPath::ball) {
+        drawBallPicture();
+    } else {
+        drawDirectPicture();
+    }
+    pictureIsStale_ = false;
+    ++drawnPictures_;
+}
+
+void Renderer::readBack(const Target& target)
+{
+    context_.run([&](VkCommandBuffer commands) {
+        const VkBufferImageCopy copy{.imageSubresource = {.aspectMask = VK_IMAGE_ASPECT_COLOR_BIT, .layerCount = 1},
+                                     .imageExtent = target.texture.extent()};
+        vkCmdCopyImageToBuffer(commands, target.texture.image(), kCopiedFrom.layout, target.readback.get(), 1, &copy);
+        makeVisibleToHost(commands, target.readback);
+    });
+}
+
+Image Renderer::picture()
+{
+    drawPicture();
+    readBack(*picture_);
+    Image picture(surface_.normals.width, surface_.normals.height, 3);
+    const auto* codes = static_cast<const uint8_t*>(picture_->readback.mapped());
+    for (size_t i = 0; i < picture.pixelCount(); ++i) {
+        for (size_t c = 0; c < 3; ++c) {
+            picture.values[3 * i + c] = static_cast<float>(codes[4 * i + c]) / 255.0f;
+        }
+    }
+    return picture;
+}
+
+Frame Renderer::radiance()
+{
+    Target& into = target(radiance_, kFloatFormat, sizeof(glm::vec4));
+    if (radianceIsStale_) {
+        uploadLights();
+        const PixelTextures& inputs = pixels(Precision::full);
+        context_.run([&](VkCommandBuffer commands) {
+            recordDirect(commands, into.texture, inputs);
+            imageBarrier(commands, into.texture.image(), kDrawnTo, kCopiedFrom);
+        });
+        readBack(into);
+        radianceIsStale_ = false;
+    }
+    Frame frame(surface_.normals.width, surface_.normals.height, 3);
+    const auto* texels = static_cast<const glm::vec4*>(into.readback.mapped());
+    for (size_t i = 0; i < frame.pixelCount(); ++i) {
+        for (int c = 0; c < 3; ++c) {
+            frame.values[3 * i + c] = texels[i][c];
+        }
+    }
+    return frame;
+}
+
+Frame Renderer::render(std::span<const Light> lights, const glm::vec3& view)
+{
+    setLights(lights);
+    setView(view);
+    return radiance();
 }
 
 Frame Renderer::render(const Scene& scene)
@@ -149,71 +314,19 @@ Frame Renderer::render(const Scene& scene)
     return render(scene.lights, scene.view);
 }
 
-Frame Renderer::render(std::span<const Light> lights, const glm::vec3& view)
+VkDeviceSize Renderer::deviceBytes() const
 {
-    assert(target_.image() != VK_NULL_HANDLE && "setSurface comes first");
-    uploadLights(lights);
-    context_.run([&](VkCommandBuffer commands) {
-        imageBarrier(commands, target_.image(), kUnused, kDrawnTo);
-        beginRendering(commands, target_);
-        recordPasses(commands, lights.size(), view);
-        vkCmdEndRendering(commands);
-        imageBarrier(commands, target_.image(), kDrawnTo, kCopiedFrom);
-        const VkBufferImageCopy copy{.imageSubresource = {.aspectMask = VK_IMAGE_ASPECT_COLOR_BIT, .layerCount = 1},
-                                     .imageExtent = target_.extent()};
-        vkCmdCopyImageToBuffer(commands, target_.image(), kCopiedFrom.layout, readback_.get(), 1, &copy);
-        makeVisibleToHost(commands, readback_);
-    });
-    return readBack();
-}
-
-void Renderer::uploadLights(std::span<const Light> lights)
-{
-    const VkDeviceSize bytes = std::max<size_t>(1, lightPassCount(lights.size())) * kLightBytesPerPass;
-    if (lights_.bytes() < bytes) {
-        lights_ = Buffer(context_, bytes, VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT);
+    VkDeviceSize bytes = balls_.bytes() + groups_.bytes();
+    for (const TableTexture& table : tables_) {
+        bytes += table.texture.bytes();
     }
-    std::transform(lights.begin(), lights.end(), static_cast<GpuLight*>(lights_.mapped()), [](const Light& light) {
-        return GpuLight{glm::vec4(light.direction, 0), glm::vec4(light.irradiance, 0)};
-    });
-}
-
-// One draw per material and chunk of lights; what they write adds up.
-void Renderer::recordPasses(VkCommandBuffer commands, size_t lightCount, const glm::vec3& view) const
-{
-    vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline_.get());
-    for (size_t material = 0; material < tables_.size(); ++material) {
-        const Table& table = tables_[material];
-        const VkExtent3D size = table.texture.extent();
-        for (size_t pass = 0; pass < lightPassCount(lightCount); ++pass) {
-            pushInputs(context_, commands, pipeline_.layout(),
-                       {.normals = sampled(nearest_, normals_),
-                        .albedo = sampled(nearest_, albedo_),
-                        .table = sampled(linear_, table.texture),
-                        .lights = {lights_.get(), pass * kLightBytesPerPass, kLightBytesPerPass}});
-            const size_t rest = lightCount - pass * kMaxLightsPerPass;
-            const DirectConstants constants{.view = glm::vec4(view, 0),
-                                            .tableSize = glm::vec4(size.width, size.height, size.depth, 0),
-                                            .domain = table.domain,
-                                            .lightCount = static_cast<int>(std::min<size_t>(rest, kMaxLightsPerPass)),
-                                            .material = static_cast<int>(material)};
-            vkCmdPushConstants(commands, pipeline_.layout(), VK_SHADER_STAGE_FRAGMENT_BIT, 0, sizeof(constants),
-                               &constants);
-            vkCmdDraw(commands, 3, 1, 0, 0);
-        }
+    for (const auto& [precision, textures] : pixels_) {
+        bytes += textures.bytes();
     }
-}
-
-Frame Renderer::readBack() const
-{
-    Frame frame(static_cast<int>(target_.extent().width), static_cast<int>(target_.extent().height), 3);
-    const auto* texels = static_cast<const glm::vec4*>(readback_.mapped());
-    for (size_t i = 0; i < frame.pixelCount(); ++i) {
-        for (int c = 0; c < 3; ++c) {
-            frame.values[3 * i + c] = texels[i][c];
-        }
+    for (const auto* target : {&radiance_, &picture_}) {
+        bytes += *target ? (*target)->texture.bytes() + (*target)->readback.bytes() : 0;
     }
-    return frame;
+    return bytes;
 }
 
 } // namespace nacre

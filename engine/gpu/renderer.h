@@ -1,49 +1,105 @@
 #pragma once
+#include <array>
+#include <map>
+#include <optional>
 #include <span>
 #include <vector>
 
-#include "engine/gpu/buffer.h"
-#include "engine/gpu/context.h"
-#include "engine/gpu/pipeline.h"
-#include "engine/gpu/texture.h"
+#include "engine/gpu/ball_cache.h"
+#include "engine/gpu/direct_pass.h"
+#include "engine/gpu/light_groups.h"
+#include "engine/gpu/surface_textures.h"
 #include "engine/scene/scene.h"
 
 namespace nacre {
 
-// Draws a surface under distant lights into linear radiance, without a window. The context must live longer.
+// direct: per pixel and light one lookup of the material's table; any view. ball: per pixel one lookup of the
+// material's ball, which holds all lights; v = (0,0,1) only. automatic: ball where every material's ball is small
+// enough and the view is from the front.
+enum class RenderPath { automatic, direct, ball };
+
+// Draws a surface under distant lights, without a window. Whatever is set is uploaded once and stays; nothing is drawn
+// twice. A picture depends on what is set alone, not on what was set before. The context must live longer.
 class Renderer {
 public:
-    explicit Renderer(const Context& context);
+    static constexpr VkDeviceSize kCacheBytes = 64 << 20;
 
-    // Uploads normals, albedo factors, labels and tables; they stay until the next call.
-    void setSurface(const Surface& surface);
+    explicit Renderer(const Context& context, VkDeviceSize cacheBytes = kCacheBytes);
 
-    // The surface that was set, under any number of lights. view is unit, towards the viewer.
+    void setSurface(Surface surface);
+    void setLights(std::span<const Light> lights);
+    void setView(const glm::vec3& view); // unit, towards the viewer
+    void setPath(RenderPath path);
+    void setDisplay(const Display& display);
+
+    // Linear radiance by the direct path in 32-bit floats, whatever the path that is set.
+    Frame radiance();
+    // Codes of the display in [0,1], n/255, by the path that is set; 3 channels.
+    Image picture();
+    // The same without reading it back.
+    void drawPicture();
+    // The part of it that does not depend on the pixels; nothing on the direct path.
+    void updateBalls();
+    // Draws the next picture again though nothing changed: for measurement.
+    void forgetPicture() { pictureIsStale_ = true; }
+
+    // The one that a picture takes. Error (usage) where ball was set and cannot be.
+    RenderPath pathTaken();
+    // Why it is not the ball; empty where it is.
+    std::string whyDirect();
+    // One a material, of the ball path.
+    const std::vector<BallSize>& ballSizes();
+
+    // Scene with everything in it, at once; radiance by the direct path.
+    Frame render(const Scene& scene);
     Frame render(std::span<const Light> lights, const glm::vec3& view = {0, 0, 1});
 
-    // setSurface, then render.
-    Frame render(const Scene& scene);
+    VkDeviceSize deviceBytes() const;
+    VkDeviceSize cachedBytes() const { return balls_.bytes(); }
+    const Context& context() const { return context_; }
+    size_t drawnPictures() const { return drawnPictures_; }
+    size_t drawnBallLights() const { return balls_.drawnLights(); }
 
 private:
-    struct Table {
+    struct Target {
         Texture texture;
-        TableDomain domain;
+        Buffer readback;
     };
 
-    void uploadLights(std::span<const Light> lights);
-    void recordPasses(VkCommandBuffer commands, size_t lightCount, const glm::vec3& view) const;
-    Frame readBack() const;
+    const PixelTextures& pixels(Precision precision);
+    Target& target(std::optional<Target>& target, VkFormat format, VkDeviceSize texelBytes);
+    void uploadLights();
+    void recordDirect(VkCommandBuffer commands, const Texture& into, const PixelTextures& pixels);
+    const Pipeline& framePipeline(RenderPath path);
+    void drawDirectPicture();
+    void drawBallPicture();
+    void readBack(const Target& target);
 
     const Context& context_;
-    Pipeline pipeline_;
     Sampler nearest_;
-    Sampler linear_;
-    Texture normals_; // xyz, w = confidence
-    Texture albedo_;  // rgb, w = material index
-    std::vector<Table> tables_;
-    Buffer lights_;
-    Texture target_; // linear radiance
-    Buffer readback_;
+    DirectPass direct_;
+    BallCache balls_;
+    VkDeviceSize cacheBytes_;
+    std::map<std::array<int, 3>, Pipeline> pipelines_; // by ball, modulated, tone curve
+
+    Surface surface_;
+    bool plain_ = false;
+    std::vector<TableTexture> tables_;
+    std::vector<BallSize> ballSizes_;
+    std::map<Precision, PixelTextures> pixels_;
+    std::vector<Light> lights_;
+    LightGroups groups_;
+    glm::vec3 view_{0, 0, 1};
+    RenderPath path_ = RenderPath::automatic;
+    Display display_;
+
+    bool lightsAreStale_ = true;
+    bool ballsAreStale_ = true; // the cache does not know the materials yet
+    bool pictureIsStale_ = true;
+    bool radianceIsStale_ = true;
+    std::optional<Target> radiance_; // kFloatFormat
+    std::optional<Target> picture_;  // kCodeFormat
+    size_t drawnPictures_ = 0;
 };
 
 } // namespace nacre

@@ -5,6 +5,8 @@
 #include <cstring>
 
 #include <fmt/format.h>
+#include <glm/gtc/packing.hpp>
+#include <glm/packing.hpp>
 
 #include "engine/gpu/buffer.h"
 #include "engine/gpu/check.h"
@@ -29,27 +31,32 @@ void requireTableSize(const Context& context, VkExtent3D extent)
     }
 }
 
-VkImage createImage(VkDevice device, VkImageType type, VkExtent3D extent, VkImageUsageFlags usage)
+VkImage createImage(VkDevice device, const Texture::Description& description)
 {
     const VkImageCreateInfo info{.sType = VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO,
-                                 .imageType = type,
-                                 .format = Texture::kFormat,
-                                 .extent = extent,
+                                 .imageType = description.type,
+                                 .format = description.format,
+                                 .extent = description.extent,
                                  .mipLevels = 1,
                                  .arrayLayers = 1,
                                  .samples = VK_SAMPLE_COUNT_1_BIT,
                                  .tiling = VK_IMAGE_TILING_OPTIMAL,
-                                 .usage = usage,
+                                 .usage = description.usage,
                                  .initialLayout = VK_IMAGE_LAYOUT_UNDEFINED};
     VkImage image = VK_NULL_HANDLE;
     checkVulkan(vkCreateImage(device, &info, nullptr, &image), "vkCreateImage");
     return image;
 }
 
-VkDeviceMemory allocateOnDevice(const Context& context, VkImage image)
+VkMemoryRequirements requirementsOf(VkDevice device, VkImage image)
 {
     VkMemoryRequirements requirements;
-    vkGetImageMemoryRequirements(context.device(), image, &requirements);
+    vkGetImageMemoryRequirements(device, image, &requirements);
+    return requirements;
+}
+
+VkDeviceMemory allocateOnDevice(const Context& context, const VkMemoryRequirements& requirements)
+{
     const VkMemoryAllocateInfo info{
         .sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO,
         .allocationSize = requirements.size,
@@ -59,48 +66,84 @@ VkDeviceMemory allocateOnDevice(const Context& context, VkImage image)
     return memory;
 }
 
-VkImageView createView(VkDevice device, VkImage image, VkImageType type)
+VkImageView createView(VkDevice device, VkImage image, const Texture::Description& description)
 {
+    const bool solid = description.type == VK_IMAGE_TYPE_3D;
     const VkImageViewCreateInfo info{.sType = VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO,
                                      .image = image,
-                                     .viewType =
-                                         type == VK_IMAGE_TYPE_3D ? VK_IMAGE_VIEW_TYPE_3D : VK_IMAGE_VIEW_TYPE_2D,
-                                     .format = Texture::kFormat,
+                                     .viewType = solid ? VK_IMAGE_VIEW_TYPE_3D : VK_IMAGE_VIEW_TYPE_2D,
+                                     .format = description.format,
                                      .subresourceRange = kWholeImage};
     VkImageView view = VK_NULL_HANDLE;
     checkVulkan(vkCreateImageView(device, &info, nullptr, &view), "vkCreateImageView");
     return view;
 }
 
-} // namespace
-
-Texture::Texture(const Context& context, VkImageType type, VkExtent3D extent, VkImageUsageFlags usage) : extent_(extent)
+template <class Pack> auto packed(std::span<const glm::vec4> texels, Pack&& pack)
 {
-    if (type == VK_IMAGE_TYPE_3D) {
-        requireTableSize(context, extent);
-    } else {
-        requirePictureSize(context, static_cast<int>(extent.width), static_cast<int>(extent.height));
-    }
-    image_ = {context.device(), createImage(context.device(), type, extent, usage)};
-    memory_ = {context.device(), allocateOnDevice(context, image_.get())};
-    checkVulkan(vkBindImageMemory(context.device(), image_.get(), memory_.get(), 0), "vkBindImageMemory");
-    view_ = {context.device(), createView(context.device(), image_.get(), type)};
+    std::vector<decltype(pack(texels[0]))> words(texels.size());
+    std::transform(texels.begin(), texels.end(), words.begin(), pack);
+    return words;
 }
 
-Texture uploadTexture(const Context& context, VkImageType type, VkExtent3D extent, std::span<const glm::vec4> texels)
+template <class Texel> void copyToTexture(const Context& context, const Texture& texture, std::span<const Texel> texels)
 {
-    assert(texels.size() == size_t{extent.width} * extent.height * extent.depth);
-    Texture texture(context, type, extent, VK_IMAGE_USAGE_TRANSFER_DST_BIT | VK_IMAGE_USAGE_SAMPLED_BIT);
     const Buffer staging(context, texels.size_bytes(), VK_BUFFER_USAGE_TRANSFER_SRC_BIT);
     std::memcpy(staging.mapped(), texels.data(), texels.size_bytes());
     context.run([&](VkCommandBuffer commands) {
         imageBarrier(commands, texture.image(), kUnused, kCopiedTo);
         const VkBufferImageCopy copy{.imageSubresource = {.aspectMask = VK_IMAGE_ASPECT_COLOR_BIT, .layerCount = 1},
-                                     .imageExtent = extent};
+                                     .imageExtent = texture.extent()};
         vkCmdCopyBufferToImage(commands, staging.get(), texture.image(), kCopiedTo.layout, 1, &copy);
         imageBarrier(commands, texture.image(), kCopiedTo, kSampled);
     });
+}
+
+} // namespace
+
+Texture::Texture(const Context& context, const Description& description) : description_(description)
+{
+    const VkExtent3D& extent = description.extent;
+    if (description.type == VK_IMAGE_TYPE_3D) {
+        requireTableSize(context, extent);
+    } else {
+        requirePictureSize(context, static_cast<int>(extent.width), static_cast<int>(extent.height));
+    }
+    image_ = {context.device(), createImage(context.device(), description)};
+    const VkMemoryRequirements requirements = requirementsOf(context.device(), image_.get());
+    bytes_ = requirements.size;
+    memory_ = {context.device(), allocateOnDevice(context, requirements)};
+    checkVulkan(vkBindImageMemory(context.device(), image_.get(), memory_.get(), 0), "vkBindImageMemory");
+    view_ = {context.device(), createView(context.device(), image_.get(), description)};
+}
+
+Texture uploadTexture(const Context& context, VkImageType type, VkExtent3D extent, VkFormat format,
+                      std::span<const glm::vec4> texels)
+{
+    assert(texels.size() == size_t{extent.width} * extent.height * extent.depth);
+    Texture texture(context, {.type = type,
+                              .extent = extent,
+                              .format = format,
+                              .usage = VK_IMAGE_USAGE_TRANSFER_DST_BIT | VK_IMAGE_USAGE_SAMPLED_BIT});
+    if (format == kFloatFormat) {
+        copyToTexture(context, texture, texels);
+    } else if (format == kHalfFormat) {
+        copyToTexture<uint64_t>(context, texture,
+                                packed(texels, [](const glm::vec4& t) { return glm::packHalf4x16(t); }));
+    } else {
+        assert(format == kPackedNormalFormat);
+        copyToTexture<uint32_t>(context, texture,
+                                packed(texels, [](const glm::vec4& t) { return glm::packSnorm2x16(glm::vec2(t)); }));
+    }
     return texture;
+}
+
+Texture makeTarget(const Context& context, VkExtent3D extent, VkFormat format)
+{
+    return Texture(context, {.extent = extent,
+                             .format = format,
+                             .usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT |
+                                      VK_IMAGE_USAGE_TRANSFER_SRC_BIT});
 }
 
 void requirePictureSize(const Context& context, int width, int height)

@@ -9,28 +9,47 @@
 
 namespace nacre {
 
-// A 2D or 3D image of four floats a texel in device memory, without mip levels.
+// Four channels a texel:
+inline constexpr VkFormat kFloatFormat = VK_FORMAT_R32G32B32A32_SFLOAT;
+inline constexpr VkFormat kHalfFormat = VK_FORMAT_R16G16B16A16_SFLOAT;
+inline constexpr VkFormat kCodeFormat = VK_FORMAT_R8G8B8A8_UNORM; // codes of the display
+// Two channels in [-1, 1].
+inline constexpr VkFormat kPackedNormalFormat = VK_FORMAT_R16G16_SNORM;
+
+// An image in device memory, without mip levels.
 class Texture {
 public:
-    static constexpr VkFormat kFormat = VK_FORMAT_R32G32B32A32_SFLOAT;
+    struct Description {
+        VkImageType type = VK_IMAGE_TYPE_2D;
+        VkExtent3D extent{}; // depth is 1 unless 3D
+        VkFormat format = kFloatFormat;
+        VkImageUsageFlags usage = 0;
+    };
 
     Texture() = default;
-    // 3D where type says so; extent.depth is 1 otherwise. Throws Error beyond the device's limits.
-    Texture(const Context& context, VkImageType type, VkExtent3D extent, VkImageUsageFlags usage);
+    // Throws Error beyond the device's limits.
+    Texture(const Context& context, const Description& description);
 
     VkImage image() const { return image_.get(); }
     VkImageView view() const { return view_.get(); }
-    VkExtent3D extent() const { return extent_; }
+    VkExtent3D extent() const { return description_.extent; }
+    VkFormat format() const { return description_.format; }
+    VkDeviceSize bytes() const { return bytes_; } // of device memory
 
 private:
     Owned<VkDeviceMemory, vkFreeMemory> memory_; // freed after the image and its view
     Owned<VkImage, vkDestroyImage> image_;
     Owned<VkImageView, vkDestroyImageView> view_;
-    VkExtent3D extent_{};
+    Description description_;
+    VkDeviceSize bytes_ = 0;
 };
 
-// A texture for shaders to read, x fastest, then y, then z.
-Texture uploadTexture(const Context& context, VkImageType type, VkExtent3D extent, std::span<const glm::vec4> texels);
+// A texture for shaders to read; its texels x fastest, then y, then z. Formats other than kFloatFormat are packed here.
+Texture uploadTexture(const Context& context, VkImageType type, VkExtent3D extent, VkFormat format,
+                      std::span<const glm::vec4> texels);
+
+// A 2D texture to draw to and to read or copy from.
+Texture makeTarget(const Context& context, VkExtent3D extent, VkFormat format);
 
 // Throws Error where a picture of this size is beyond the device's limits (or empty).
 void requirePictureSize(const Context& context, int width, int height);
@@ -46,6 +65,9 @@ struct ImageUse {
     VkAccessFlags2 access;
 };
 inline constexpr ImageUse kUnused{VK_IMAGE_LAYOUT_UNDEFINED, VK_PIPELINE_STAGE_2_NONE, VK_ACCESS_2_NONE};
+// What shaders have read before and nobody needs any more.
+inline constexpr ImageUse kDiscarded{VK_IMAGE_LAYOUT_UNDEFINED, VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT,
+                                     VK_ACCESS_2_NONE};
 inline constexpr ImageUse kCopiedTo{VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, VK_PIPELINE_STAGE_2_COPY_BIT,
                                     VK_ACCESS_2_TRANSFER_WRITE_BIT};
 inline constexpr ImageUse kCopiedFrom{VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, VK_PIPELINE_STAGE_2_COPY_BIT,

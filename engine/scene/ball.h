@@ -19,4 +19,8 @@ Ball makeBall(const BrdfTable& table, std::span<const Light> lights, int size, i
 // Bilinear, for a unit normal with z >= 0.
 glm::vec3 sampleBall(const Ball& ball, const glm::vec3& normal);
 
+// What the ball path of the renderer has for the normal: the nearest texel of the ball stretched (bilinearly) to
+// `displaySize` texels across.
+glm::vec3 sampleStretchedBall(const Ball& ball, int displaySize, const glm::vec3& normal);
+
 } // namespace nacre

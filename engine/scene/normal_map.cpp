@@ -5,10 +5,10 @@
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
 
 #include "engine/scene/error.h"
 #include "engine/scene/image.h"
-#include "shared/ball.h"
 
 namespace nacre {
 
@@ -19,6 +19,15 @@ constexpr float kShortestNormal = 0.5f;
 // A normal map's lengths are about 1, but for 8-bit codes and filtering; a photograph's are anything.
 constexpr float kUnitTolerance = 0.1f;
 constexpr float kLeastUnitShare = 0.5f;
+
+// The sphere seen from afar; its rim passes through the centres of the border pixels, and what lies beyond is on it.
+glm::vec3 normalOfSphere(int x, int y, int size)
+{
+    const float last = static_cast<float>(size - 1);
+    glm::vec2 disc(2 * x / last - 1, 1 - 2 * y / last);
+    disc /= std::max(1.0f, glm::length(disc));
+    return glm::normalize(glm::vec3(disc, std::sqrt(std::max(0.0f, 1 - glm::dot(disc, disc)))));
+}
 
 bool isFloat(const ImageHeader& header)
 {
@@ -125,10 +134,9 @@ NormalMap sphereNormalMap(int size)
     NormalMap map(size, size);
     for (int y = 0; y < size; ++y) {
         for (int x = 0; x < size; ++x) {
-            const glm::vec2 texel((x + 0.5f) / size, (y + 0.5f) / size);
-            const glm::vec2 disc(2 * texel.x - 1, 1 - 2 * texel.y);
+            const glm::vec2 disc(2 * (x + 0.5f) / size - 1, 1 - 2 * (y + 0.5f) / size);
             if (glm::length(disc) < 1) {
-                map.normals[map.index(x, y)] = glm::normalize(normalFromBallTexel(texel, static_cast<float>(size)));
+                map.normals[map.index(x, y)] = normalOfSphere(x, y, size);
                 map.confidence[map.index(x, y)] = 1;
             }
         }

@@ -2,6 +2,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "engine/scene/ball.h"
 #include "engine/scene/parallel_for.h"
 #include "shared/shading.h"
 
@@ -51,6 +52,29 @@ Frame renderReference(const Scene& scene, int threads)
         }
     });
     return frame;
+}
+
+Image referenceBallPicture(const Scene& scene, std::span<const BallSize> sizes, const Display& display, int threads)
+{
+    const Surface& surface = scene.surface;
+    std::vector<Ball> balls;
+    for (size_t m = 0; m < surface.materials.size(); ++m) {
+        balls.push_back(makeBall(surface.materials[m].table, scene.lights, sizes[m].radiance, threads));
+    }
+    Frame frame(surface.normals.width, surface.normals.height, 3);
+    for (size_t pixel = 0; pixel < frame.pixelCount(); ++pixel) {
+        const glm::vec3& n = surface.normals.normals[pixel];
+        const uint8_t label = surface.labels[pixel];
+        if (surface.normals.confidence[pixel] <= 0 || label >= balls.size() || n.z <= 0) {
+            continue;
+        }
+        const glm::vec3 radiance = sampleStretchedBall(balls[label], sizes[label].display, n);
+        const float* a = surface.albedo.values.empty() ? nullptr : &surface.albedo.values[3 * pixel];
+        for (int c = 0; c < 3; ++c) {
+            frame.values[3 * pixel + c] = a == nullptr ? radiance[c] : a[c] * radiance[c];
+        }
+    }
+    return displayedImage(frame, display);
 }
 
 } // namespace nacre

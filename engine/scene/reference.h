@@ -1,9 +1,18 @@
 #pragma once
+#include <span>
+
+#include "engine/scene/ball_size.h"
+#include "engine/scene/display.h"
 #include "engine/scene/scene.h"
 
 namespace nacre {
 
 // The CPU twin of shaders/direct.frag: the same shared formulas, per pixel and light one lookup of the table.
 Frame renderReference(const Scene& scene, int threads = 0);
+
+// The CPU twin of the renderer's ball path, for the view from the front: all lights collapsed into one ball a material,
+// of the size given for it. Code values in [0,1], n/255.
+Image referenceBallPicture(const Scene& scene, std::span<const BallSize> sizes, const Display& display,
+                           int threads = 0);
 
 } // namespace nacre

@@ -16,6 +16,8 @@ using glm::cos;
 using glm::cross;
 using glm::dot;
 using glm::exp;
+using glm::inversesqrt;
+using glm::ivec2;
 using glm::ivec3;
 using glm::length;
 using glm::max;

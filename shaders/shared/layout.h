@@ -1,28 +1,50 @@
 // What the shaders and the renderer agree on: bindings, push constants, the light. Scalar layout.
 #ifndef NACRE_LAYOUT_H
 #define NACRE_LAYOUT_H
-#include "brdf_coords.h"
+#include "light_frame.h"
 NACRE_SHARED_BEGIN
 
-const int kBindingNormals = 0; // sampled 2D: xyz unit normal in the camera frame, w confidence (0 = no data)
-const int kBindingAlbedo = 1;  // sampled 2D: RGB albedo factor, w material index as a float, 255 = none
-const int kBindingTable = 2;   // sampled 3D: BRDF in 1/sr
-const int kBindingLights = 3;  // uniform buffer of GpuLight
+// Sampled 2D: xyz unit normal in the camera frame, w confidence (all 0 = no data); or packed, see ball.h.
+const int kBindingNormals = 0;
+const int kBindingAlbedo = 1; // sampled 2D: RGB albedo factor, w material index as a float, 255 = none
+const int kBindingTable = 2;  // sampled 3D: BRDF in 1/sr, w coverage
+const int kBindingLights = 3; // uniform buffer of kLightsPerGroup LightFrame
+const int kBindingInput = 4;  // sampled 2D: what an earlier pass drew (radiance, or balls)
 
-// Lights of one pass; more lights take more passes that add up.
-const int kMaxLightsPerPass = 256;
+// Lights of one draw. The loop over them is unrolled, so that their fields are loaded once for all pixels.
+const int kLightsPerGroup = 4;
 
-struct GpuLight {
-    vec4 direction;  // xyz unit, from the surface towards the light
-    vec4 irradiance; // rgb on a plane facing the light
-};
+// Index of a specialisation constant, one meaning a shader.
+const int kConstantLightCount = 0;  // direct.frag: lights of the group, 1 to kLightsPerGroup
+const int kConstantCoordinates = 1; // direct.frag: of the table
+const int kConstantOneMaterial = 2; // direct.frag: all pixels have it and albedo 1
+const int kConstantPacked = 3;      // direct.frag: normals are packed
+const int kConstantModulated = 0;   // ball.frag, ball_display.frag, floor.frag: with albedo factors and labels
+const int kConstantToneCurve = 1;   // ball.frag, ball_display.frag, display.frag
 
 struct DirectConstants {
-    vec4 view;          // xyz unit, towards the viewer
-    vec4 tableSize;     // xyz texels of the 3D table
-    TableDomain domain; // of the table
-    int lightCount;     // in the bound light buffer
-    int material;       // index that this pass shades
+    vec4 view;      // xyz unit, towards the viewer; w unused
+    vec4 tableSize; // xyz texels of the 3D table; w = largest thetaD on its grid
+    int material;   // index that this pass shades
+};
+
+// Of ball.frag: balls of one size lie side by side in one texture, material 0 at the top left.
+struct BallConstants {
+    int size;      // texels across one ball
+    float columns; // balls side by side
+    int materials; // balls in all
+};
+
+// Of ball_display.frag: one ball is stretched and encoded into its place.
+struct BallDisplayConstants {
+    vec2 origin;     // texel of its place's top left corner
+    float size;      // texels across its place
+    float inputSize; // texels across the radiance ball
+    float gain;      // 2^exposure
+};
+
+struct DisplayConstants {
+    float gain; // 2^exposure
 };
 
 NACRE_SHARED_END

@@ -74,7 +74,7 @@ TEST_F(RenderTest, FirstCapturedLightIsTheDefault)
 
 TEST_F(RenderTest, PngIsExposedAndSaysItsDevice)
 {
-    const ProgramRun run = render("new.png", {"--light", "0,0,1"});
+    const ProgramRun run = render("new.png", {"--light", "0,0,1", "--path", "direct"});
     ASSERT_EQ(run.exitCode, 0) << run.err;
     const Frame frame = expected(scene_.surface, {{{0, 0, 1}, {1, 1, 1}}});
     const Image picture = displayImage(frame, automaticExposure(frame));
@@ -215,6 +215,58 @@ TEST_F(RenderTest, InfoTellsDevicesAndSurfaces)
         EXPECT_NE(surface.out.find(fragment), std::string::npos) << fragment << " is not in " << surface.out;
     }
     EXPECT_EQ(runNacre({"info", path("nothing")}).exitCode, 3);
+}
+
+TEST_F(RenderTest, AStateFileIsTheCommandLine)
+{
+    writeText(folder_ / "scene.json", R"({"format": "nacre scene", "version": 1, "surface": "s.nacre",
+        "light": ["captured:2", "soft:10:0,0.5,1"], "exposure": 0.5, "tone": "filmic", "size": "90x60"})");
+    ASSERT_EQ(runNacre({"render", "--state", path("scene.json"), "-o", path("a.png")}).exitCode, 0);
+    ASSERT_EQ(render("b.png", {"--light", "captured:2", "--light", "soft:10:0,0.5,1", "--exposure", "0.5", "--tone",
+                               "filmic", "--size", "90x60"})
+                  .exitCode,
+              0);
+    EXPECT_EQ(loadImage(path("a.png")).values, loadImage(path("b.png")).values);
+    writeText(folder_ / "unknown.json", R"({"format": "nacre scene", "version": 1, "colour": 1})");
+    expectRefusal(runNacre({"render", "--state", path("unknown.json"), "-o", path("new.png")}), 3, "'colour'");
+    writeText(folder_ / "other.json", R"({"format": "nacre lights", "version": 1})");
+    expectRefusal(runNacre({"render", "--state", path("other.json"), "-o", path("new.png")}), 3, "nacre scene");
+}
+
+TEST_F(RenderTest, SequencesAreNumbered)
+{
+    ASSERT_EQ(render("turn.png", {"--light", "0.6,0,0.8", "--frames", "4"}).exitCode, 0);
+    ASSERT_EQ(render("alone.png", {"--light", "0,0.6,0.8", "--exposure", "0"}).exitCode, 0);
+    ASSERT_EQ(render("turned.png", {"--light", "0.6,0,0.8", "--frames", "4", "--exposure", "0"}).exitCode, 0);
+    const Image second = loadImage(path("turned_0002.png")), alone = loadImage(path("alone.png"));
+    EXPECT_GT(picturePsnr(second, alone, std::vector<uint8_t>(60 * 40, 1)), 45) << "a quarter turn of the light";
+    EXPECT_TRUE(std::filesystem::exists(path("turn_0004.png")));
+    expectRefusal(render("turn.png", {"--frames", "4"}), 3, "--force");
+    expectRefusal(render("new.png", {"--frames", "0"}), 2, "1 to 10000");
+    expectRefusal(render("new.png", {"--motion", "jump"}), 2, "turntable, sweep or none");
+}
+
+TEST_F(RenderTest, PathsAgreeAndSayWhatTheyAre)
+{
+    const ProgramRun direct = render("d.png", {"--path", "direct"}), ball = render("b.png", {"--path", "ball"});
+    ASSERT_EQ(direct.exitCode, 0) << direct.err;
+    ASSERT_EQ(ball.exitCode, 0) << ball.err;
+    EXPECT_GT(picturePsnr(loadImage(path("d.png")), loadImage(path("b.png")), std::vector<uint8_t>(60 * 40, 1)), 45);
+    EXPECT_NE(ball.out.find("path         ball ("), std::string::npos) << ball.out;
+    EXPECT_NE(ball.out.find("MiB on the device"), std::string::npos) << ball.out;
+    expectRefusal(render("new.png", {"--path", "ball", "--view", "0.5,0,1"}), 2, "view from the front");
+    expectRefusal(render("new.png", {"--view", "0,0,-1"}), 2, "z above 0");
+    expectRefusal(render("new.png", {"--light", "soft:0:0,0,1"}), 2, "above 0");
+    expectRefusal(render("new.png", {"--environment", path("nothing.exr")}), 3, "does not exist");
+}
+
+TEST_F(RenderTest, ABlackEnvironmentIsABlackPicture)
+{
+    saveImage(folder_ / "black.exr", Image(16, 8, 3), PixelType::float32);
+    ASSERT_EQ(render("new.exr", {"--environment", path("black.exr")}).exitCode, 0);
+    for (const float value : loadImage(path("new.exr")).values) {
+        ASSERT_EQ(value, 0);
+    }
 }
 
 } // namespace

@@ -44,9 +44,9 @@ TEST_F(FrameTest, OddAndNarrowSizes)
     expectTwins(glossyScene(1, 97));
 }
 
-TEST_F(FrameTest, LightsBeyondOnePass)
+TEST_F(FrameTest, LightsBeyondOneGroup)
 {
-    for (const int count : {kMaxLightsPerPass, kMaxLightsPerPass + 1, 2 * kMaxLightsPerPass + 77}) {
+    for (const int count : {kLightsPerGroup, kLightsPerGroup + 1, 2 * kLightsPerGroup + 77}) {
         SCOPED_TRACE(count);
         Scene scene = glossyScene(64, 64);
         scene.lights = capOfLights(count, 75);
@@ -83,7 +83,7 @@ TEST_F(FrameTest, TwoMaterialsAndNone)
     Scene scene = glossyScene(160, 90);
     const LambertGgx dull{.diffuse = {0.1f, 0.5f, 0.2f}, .specular = glm::vec3(0.04f), .alpha = 0.5f};
     scene.surface.materials.push_back(materialOf(dull, {kNatural, kHalfPi}, {16, 16, 32}));
-    scene.lights = capOfLights(kMaxLightsPerPass + 3, 60);
+    scene.lights = capOfLights(kLightsPerGroup + 3, 60);
     for (size_t i = 0; i < scene.surface.labels.size(); ++i) {
         const size_t stripe = i / 7 % 3;
         scene.surface.labels[i] = stripe == 2 ? Surface::kNoMaterial : static_cast<uint8_t>(stripe);

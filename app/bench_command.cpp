@@ -1,0 +1,240 @@
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstring>
+#include <functional>
+#include <memory>
+
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
+#include <nlohmann/json.hpp>
+
+#include "app/commands.h"
+#include "app/destinations.h"
+#include "app/size_argument.h"
+#include "engine/gpu/floor_pass.h"
+#include "engine/gpu/renderer.h"
+#include "engine/scene/brdf_tabulation.h"
+#include "engine/scene/error.h"
+#include "engine/scene/whole_file.h"
+
+namespace nacre {
+
+namespace {
+
+struct BenchArguments {
+    std::vector<std::string> sizes = {"960x540", "1920x1080", "3840x2160"};
+    std::vector<int> lights = {1, 4, 16, 256};
+    int repeats = 15;
+    int mostDirectLights = 16; // a direct frame under more takes seconds
+    float alpha = 0.3f;
+    std::string device;
+    std::filesystem::path json;
+};
+
+double milliseconds(const std::function<void()>& call)
+{
+    const auto start = std::chrono::steady_clock::now();
+    call();
+    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+}
+
+double median(std::vector<double> values)
+{
+    std::nth_element(values.begin(), values.begin() + values.size() / 2, values.end());
+    return values[values.size() / 2];
+}
+
+struct Measured {
+    double ms = 0;       // median of the wall clock around the call, which returns once the device is done
+    double perFloor = 0; // median of its ratio to the floor drawn right after it
+};
+
+// The first two rounds are warm-up, in which shaders are compiled.
+Measured measured(int repeats, const std::function<void()>& call, const std::function<void()>& floor)
+{
+    std::vector<double> times, ratios;
+    for (int i = -2; i < repeats; ++i) {
+        const double time = milliseconds(call), under = floor ? milliseconds(floor) : 1;
+        if (i >= 0) {
+            times.push_back(time);
+            ratios.push_back(time / under);
+        }
+    }
+    return {median(times), median(ratios)};
+}
+
+// Normals in every pixel, in waves: neighbours differ as on a real surface.
+NormalMap wavyNormals(int width, int height)
+{
+    NormalMap map(width, height);
+    for (int y = 0; y < height; ++y) {
+        for (int x = 0; x < width; ++x) {
+            const float slopeX = 1.3f * std::sin(0.021f * x + 2 * std::sin(0.003f * y));
+            const float slopeY = 1.3f * std::sin(0.017f * y);
+            map.normals[map.index(x, y)] = glm::normalize(glm::vec3(slopeX, slopeY, 1));
+            map.confidence[map.index(x, y)] = 1;
+        }
+    }
+    return map;
+}
+
+// As plain as can be: one material, no albedo factors; or with everything: four materials, factors per pixel.
+Surface benchSurface(const PictureSize& size, const Material& material, bool modulated)
+{
+    Surface surface = transferredSurface(wavyNormals(size.width, size.height), material);
+    if (!modulated) {
+        return surface;
+    }
+    surface.materials.assign(4, material);
+    surface.albedo = Image(size.width, size.height, 3);
+    for (size_t i = 0; i < surface.labels.size(); ++i) {
+        surface.labels[i] = static_cast<uint8_t>(i / 61 % 4);
+        for (size_t c = 0; c < 3; ++c) {
+            surface.albedo.values[3 * i + c] = 0.5f + 0.01f * static_cast<float>((i + 7 * c) % 100);
+        }
+    }
+    return surface;
+}
+
+// `turn` moves every light a little, so that every ball is out of date.
+std::vector<Light> benchLights(int count, int turn)
+{
+    std::vector<Light> lights;
+    for (int i = 0; i < count; ++i) {
+        const float azimuth = 2.3999632f * i + 0.01f * turn, slope = 0.9f * std::sqrt((i + 0.5f) / count);
+        lights.push_back({glm::normalize(glm::vec3(slope * std::cos(azimuth), slope * std::sin(azimuth), 1)),
+                          glm::vec3(1.0f / count)});
+    }
+    return lights;
+}
+
+class Bench {
+public:
+    explicit Bench(const BenchArguments& arguments)
+        : arguments_(arguments),
+          context_(arguments.device), material_{"rough", tabulatedBrdf(LambertGgx{.alpha = arguments.alpha}), {}}
+    {
+    }
+
+    nlohmann::ordered_json run()
+    {
+        results_["device"] = context_.info().name;
+        results_["driver"] = context_.info().driver;
+        results_["materialGgxAlpha"] = arguments_.alpha;
+        results_["repeats"] = arguments_.repeats;
+        for (const std::string& text : arguments_.sizes) {
+            const PictureSize size = sizeFromArgument("--size", text);
+            requirePictureSize(context_, size.width, size.height);
+            fmt::print("\n{}x{}, ms (times the floor)\n", size.width, size.height);
+            measureSize(size, fmt::format("{}x{}", size.width, size.height));
+        }
+        return results_;
+    }
+
+private:
+    void measureSize(const PictureSize& size, const std::string& prefix)
+    {
+        std::vector<char> from(size_t{4} * size.width * size.height, 1), to(from.size());
+        record(prefix + ".memoryCopyMs", "memory copy of a picture", {},
+               [&] { std::memcpy(to.data(), from.data(), from.size()); });
+        for (const bool modulated : {false, true}) {
+            const Surface surface = benchSurface(size, material_, modulated);
+            const std::string kind = modulated ? "modulated" : "plain";
+            FloorPass pass(context_, surface);
+            const auto floor = [&] { pass.draw(); };
+            record(fmt::format("{}.{}.floorMs", prefix, kind),
+                   modulated ? "floor: normals, albedo, label" : "floor: normals", {}, floor);
+            measureRenderer(surface, fmt::format("{}.{}", prefix, kind), floor);
+        }
+    }
+
+    void measureRenderer(const Surface& surface, const std::string& prefix, const std::function<void()>& floor)
+    {
+        Renderer renderer(context_);
+        renderer.setSurface(surface);
+        renderer.setDisplay({.toneCurve = isPlain(surface) ? kToneSrgb : kToneFilmic});
+        const BallSize size = renderer.ballSizes()[0];
+        results_[prefix + ".ballTexels"] = size.radiance;
+        results_[prefix + ".ballTexelsShown"] = size.display;
+        for (const int lights : arguments_.lights) {
+            const std::string name = fmt::format("{}.{}lights", prefix, lights);
+            int turn = 0;
+            renderer.setPath(RenderPath::ball);
+            record(name + ".ballRebuildMs", fmt::format("ball rebuild, {} lights", lights), floor, [&] {
+                renderer.setLights(benchLights(lights, ++turn));
+                renderer.updateBalls();
+            });
+            record(name + ".ballFrameMs", fmt::format("ball frame, {} lights", lights), floor, [&] {
+                renderer.forgetPicture();
+                renderer.drawPicture();
+            });
+            results_[prefix + ".ballDeviceMiB"] = static_cast<double>(renderer.deviceBytes()) / 1048576.0;
+            if (lights <= arguments_.mostDirectLights) {
+                renderer.setPath(RenderPath::direct);
+                record(name + ".directFrameMs", fmt::format("direct frame, {} lights", lights), floor, [&] {
+                    renderer.forgetPicture();
+                    renderer.drawPicture();
+                });
+            }
+        }
+    }
+
+    void record(const std::string& name, const std::string& words, const std::function<void()>& floor,
+                const std::function<void()>& call)
+    {
+        const bool isSlow = name.ends_with("directFrameMs");
+        const int repeats = isSlow ? std::max(1, arguments_.repeats / 5) : arguments_.repeats;
+        const Measured found = measured(repeats, call, floor);
+        results_[name] = found.ms;
+        if (floor) {
+            results_[name.substr(0, name.size() - 2) + "PerFloor"] = found.perFloor;
+        }
+        fmt::print("  {:<32}{:9.2f}{}\n", words, found.ms, floor ? fmt::format("  ({:.2f})", found.perFloor) : "");
+    }
+
+    const BenchArguments& arguments_;
+    Context context_;
+    Material material_;
+    nlohmann::ordered_json results_;
+};
+
+void runBench(const BenchArguments& arguments)
+{
+    requireSummaryDestination(arguments.json);
+    if (arguments.repeats < 1 || arguments.repeats > 1000) {
+        throw Error("", fmt::format("--repeats {} is out of range", arguments.repeats), "1 to 1000", Error::kUsage);
+    }
+    for (const int count : arguments.lights) {
+        if (count < 1 || count > 100000) {
+            throw Error("", fmt::format("--lights {} is out of range", count), "1 to 100000", Error::kUsage);
+        }
+    }
+    const nlohmann::ordered_json results = Bench(arguments).run();
+    if (!arguments.json.empty()) {
+        writeTextFile(arguments.json, results.dump(2) + "\n");
+    }
+}
+
+} // namespace
+
+void addBenchCommand(CLI::App& app)
+{
+    auto arguments = std::make_shared<BenchArguments>();
+    CLI::App* command = app.add_subcommand("bench", "What frames cost on this machine, against their floors");
+    command->add_option("--size", arguments->sizes, "WxH, repeatable (default: 960x540 1920x1080 3840x2160)");
+    command->add_option("--lights", arguments->lights, "Numbers of lights (default: 1 4 16 256)");
+    command->add_option("--repeats", arguments->repeats, "Of which the median is told; slow ones a fifth")
+        ->capture_default_str();
+    command->add_option("--most-direct-lights", arguments->mostDirectLights, "The direct path with more is left out")
+        ->capture_default_str();
+    command->add_option("--alpha", arguments->alpha, "GGX roughness of the material")
+        ->check(CLI::Range(0.001f, 1.0f))
+        ->capture_default_str();
+    command->add_option("--device", arguments->device, "Vulkan device: number or part of its name, see nacre info");
+    command->add_option("--json", arguments->json, "Write the figures as flat names");
+    command->footer("Example:\n  nacre bench --size 1920x1080 --json bench.json");
+    command->callback([arguments] { runBench(*arguments); });
+}
+
+} // namespace nacre

@@ -1,0 +1,140 @@
+#include "app/render_output.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "engine/scene/error.h"
+#include "engine/scene/whole_file.h"
+
+namespace nacre {
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr int kMostFrames = 10000;
+constexpr int kExposureFrames = 8; // of a sequence, to find one exposure for all
+
+Error notKnown(const char* option, const std::string& value, const char* expected)
+{
+    return Error("", fmt::format("{} {} is not known", option, value), expected, Error::kUsage);
+}
+
+RenderPath pathFromArgument(const std::string& text)
+{
+    if (text.empty() || text == "auto") {
+        return RenderPath::automatic;
+    }
+    if (text != "ball" && text != "direct") {
+        throw notKnown("--path", text, "auto, direct or ball");
+    }
+    return text == "ball" ? RenderPath::ball : RenderPath::direct;
+}
+
+LightMotion motionFromArgument(const std::string& text, int frames)
+{
+    if (text.empty()) {
+        return frames > 1 ? LightMotion::turntable : LightMotion::none;
+    }
+    if (text != "turntable" && text != "sweep" && text != "none") {
+        throw notKnown("--motion", text, "turntable, sweep or none");
+    }
+    return text == "none" ? LightMotion::none : text == "sweep" ? LightMotion::sweep : LightMotion::turntable;
+}
+
+int toneFromArgument(const std::string& text)
+{
+    if (!text.empty() && text != "srgb" && text != "filmic") {
+        throw notKnown("--tone", text, "srgb or filmic");
+    }
+    return text == "filmic" ? kToneFilmic : kToneSrgb;
+}
+
+fs::path fileOfFrame(const fs::path& output, int frame, int frames)
+{
+    if (frames == 1) {
+        return output;
+    }
+    return output.parent_path() /
+           fmt::format("{}_{:04}{}", output.stem().string(), frame + 1, output.extension().string());
+}
+
+std::vector<ImageAttribute> attributesOf(const DeviceInfo& device)
+{
+    return {{"Software", "nacre " NACRE_VERSION}, {"Device", device.name}, {"Driver", device.driver}};
+}
+
+// One exposure for the whole sequence, so that it does not flicker: that of its brightest frame.
+float commonExposure(Renderer& renderer, const RenderOutput& output, const std::vector<Light>& lights)
+{
+    const int probes = std::min(output.frames, kExposureFrames);
+    float stops = 0;
+    for (int i = 0; i < probes; ++i) {
+        renderer.setLights(movedLights(lights, output.motion, i * output.frames / probes, output.frames));
+        const float wanted = automaticExposure(renderer.radiance());
+        stops = i == 0 ? wanted : std::min(stops, wanted);
+    }
+    return stops;
+}
+
+} // namespace
+
+RenderOutput checkedOutput(const RenderArguments& arguments)
+{
+    const std::string extension = arguments.output.extension().string();
+    if (extension != ".png" && extension != ".exr") {
+        throw Error(arguments.output, "is no picture that render writes", ".png (8-bit sRGB) or .exr (linear radiance)",
+                    Error::kUsage);
+    }
+    RenderOutput output;
+    output.frames = arguments.frames.value_or(1);
+    if (output.frames < 1 || output.frames > kMostFrames) {
+        throw Error("", fmt::format("--frames {} is out of range", output.frames), fmt::format("1 to {}", kMostFrames),
+                    Error::kUsage);
+    }
+    output.motion = motionFromArgument(arguments.motion, output.frames);
+    output.path = pathFromArgument(arguments.path);
+    output.toneCurve = toneFromArgument(arguments.tone);
+    output.isRadiance = extension == ".exr";
+    if (output.isRadiance && (arguments.exposure || !arguments.tone.empty())) {
+        throw Error(arguments.output, "knows no exposure and no tone curve, EXR holds linear radiance",
+                    "--exposure and --tone with a .png only", Error::kUsage);
+    }
+    if (output.isRadiance && output.path == RenderPath::ball) {
+        throw Error(arguments.output, "is radiance, which balls for the display do not hold", "--path ball with .png",
+                    Error::kUsage);
+    }
+    if (arguments.exposure && !std::isfinite(*arguments.exposure)) {
+        throw Error("", "--exposure is not finite", "a number of stops", Error::kUsage);
+    }
+    for (int frame = 0; frame < output.frames; ++frame) {
+        WholeOutput(fileOfFrame(arguments.output, frame, output.frames), arguments.force);
+    }
+    return output;
+}
+
+RenderedOutput renderFrames(Renderer& renderer, const RenderArguments& arguments, const RenderOutput& output,
+                            const std::vector<Light>& lights)
+{
+    const std::vector<ImageAttribute> attributes = attributesOf(renderer.context().info());
+    RenderedOutput rendered;
+    renderer.setPath(output.path);
+    if (!output.isRadiance) {
+        rendered.stops = arguments.exposure ? *arguments.exposure : commonExposure(renderer, output, lights);
+        renderer.setDisplay({.exposureStops = rendered.stops, .toneCurve = output.toneCurve});
+    }
+    for (int frame = 0; frame < output.frames; ++frame) {
+        renderer.setLights(movedLights(lights, output.motion, frame, output.frames));
+        const fs::path file = fileOfFrame(arguments.output, frame, output.frames);
+        rendered.first = frame == 0 ? file : rendered.first;
+        if (output.isRadiance) {
+            saveImage(file, renderer.radiance(), PixelType::float32, attributes);
+        } else {
+            saveImage(file, renderer.picture(), PixelType::uint8, attributes);
+        }
+    }
+    return rendered;
+}
+
+} // namespace nacre

@@ -1,0 +1,30 @@
+#pragma once
+#include "app/render_arguments.h"
+#include "engine/gpu/renderer.h"
+#include "engine/scene/light_motion.h"
+
+namespace nacre {
+
+// What is written, from the output's extension and --frames: .exr holds linear radiance, .png is exposed for the
+// eye. Several frames make numbered pictures (NAME_0001.png).
+struct RenderOutput {
+    int frames = 1;
+    LightMotion motion = LightMotion::none;
+    RenderPath path = RenderPath::automatic;
+    int toneCurve = kToneSrgb;
+    bool isRadiance = false;
+};
+
+// Throws Error (usage) where options contradict each other, Error (data) where the output cannot be written.
+RenderOutput checkedOutput(const RenderArguments& arguments);
+
+struct RenderedOutput {
+    std::filesystem::path first; // file
+    float stops = 0;             // of pictures for the eye
+};
+
+// Draws and writes all frames of the scene whose surface, view and path the renderer has.
+RenderedOutput renderFrames(Renderer& renderer, const RenderArguments& arguments, const RenderOutput& output,
+                            const std::vector<Light>& lights);
+
+} // namespace nacre

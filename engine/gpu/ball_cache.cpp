@@ -1,0 +1,254 @@
+#include "engine/gpu/ball_cache.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <glm/geometric.hpp>
+
+#include "ball_display_frag.h"
+#include "copy_frag.h"
+#include "shared/ball.h"
+#include "shared/layout.h"
+
+namespace nacre {
+namespace {
+
+constexpr std::array kOneInput = {ShaderBinding{kBindingInput, kTextureInput}};
+
+VkDeviceSize normalBytes(int size)
+{
+    return VkDeviceSize{4} * size * size;
+}
+
+VkExtent3D squareExtent(int size)
+{
+    return {static_cast<uint32_t>(size), static_cast<uint32_t>(size), 1};
+}
+
+VkDeviceSize radianceBytes(int size)
+{
+    return VkDeviceSize{sizeof(glm::vec4)} * size * size;
+}
+
+// As near to square as can be, so that many balls stay within the device's limits.
+int columnsOf(size_t balls)
+{
+    return static_cast<int>(std::ceil(std::sqrt(static_cast<double>(balls))));
+}
+
+} // namespace
+
+BallCache::BallCache(const Context& context, DirectPass& direct, VkDeviceSize bytes)
+    : context_(context), direct_(direct), limit_(bytes), nearest_(makeSampler(context, VK_FILTER_NEAREST)),
+      linear_(makeSampler(context, VK_FILTER_LINEAR)),
+      add_(context,
+           {.fragmentShader = copy_frag, .bindings = kOneInput, .targetFormat = kFloatFormat, .blend = Blend::add})
+{
+}
+
+VkDeviceSize BallCache::leastBytes(std::span<const BallSize> sizes, bool modulated, size_t lights)
+{
+    const int columns = columnsOf(sizes.size());
+    const auto rows = static_cast<int>((sizes.size() + columns - 1) / columns);
+    VkDeviceSize bytes = 0;
+    int largest = 0;
+    for (const BallSize& size : sizes) {
+        largest = std::max(largest, size.display);
+        const VkDeviceSize chunk = lights > kLightsPerChunk ? radianceBytes(size.radiance) : 0;
+        bytes += radianceBytes(size.radiance) + chunk + normalBytes(size.radiance);
+    }
+    return bytes + VkDeviceSize{modulated ? 8u : 4u} * columns * rows * largest * largest;
+}
+
+void BallCache::setMaterials(std::span<const BallSize> sizes, bool modulated)
+{
+    materials_.clear();
+    normals_.clear();
+    scratch_.clear();
+    displaySize_ = 0;
+    for (const BallSize& size : sizes) {
+        materials_.push_back({size.radiance, {}, makeTarget(context_, squareExtent(size.radiance), kFloatFormat)});
+        displaySize_ = std::max(displaySize_, size.display);
+    }
+    modulated_ = modulated;
+    columns_ = columnsOf(sizes.size());
+    const auto rows = static_cast<uint32_t>((sizes.size() + columns_ - 1) / columns_);
+    const auto side = static_cast<uint32_t>(displaySize_);
+    display_ = makeTarget(context_, {columns_ * side, rows * side, 1}, modulated ? kHalfFormat : kCodeFormat);
+    keptBytes_ = leastBytes(sizes, modulated, 0);
+    chunkIsStale_.assign(chunkCount(), 1);
+    sumIsStale_ = displayIsStale_ = true;
+}
+
+void BallCache::setLights(std::span<const Light> lights)
+{
+    const size_t chunksBefore = chunkCount();
+    for (size_t first = 0; first < std::max(lights.size(), lights_.size()); first += kLightsPerChunk) {
+        const auto chunkOf = [&](std::span<const Light> all) {
+            const size_t from = std::min(first, all.size());
+            return all.subspan(from, std::min(kLightsPerChunk, all.size() - from));
+        };
+        const auto before = chunkOf(lights_), now = chunkOf(lights);
+        if (!std::equal(before.begin(), before.end(), now.begin(), now.end())) {
+            chunkIsStale_.resize(std::max(chunkIsStale_.size(), first / kLightsPerChunk + 1), 1);
+            chunkIsStale_[first / kLightsPerChunk] = 1;
+            sumIsStale_ = true;
+        }
+    }
+    const bool keptBefore = keepsChunks(chunksBefore);
+    lights_.assign(lights.begin(), lights.end());
+    chunkIsStale_.resize(chunkCount(), 1);
+    if (!keptBefore || !keepsChunks(chunkCount())) {
+        std::fill(chunkIsStale_.begin(), chunkIsStale_.end(), uint8_t{sumIsStale_});
+    }
+}
+
+void BallCache::setDisplay(const Display& display)
+{
+    displayIsStale_ = displayIsStale_ || !(display == displayOptions_);
+    displayOptions_ = display;
+}
+
+// One chunk is the sum itself.
+bool BallCache::keepsChunks(size_t count) const
+{
+    VkDeviceSize bytes = keptBytes_;
+    for (const MaterialBalls& material : materials_) {
+        bytes += count * radianceBytes(material.size);
+    }
+    return count > 1 && bytes <= limit_;
+}
+
+const Texture& BallCache::normalsOfBall(int size)
+{
+    auto found = normals_.find(size);
+    if (found == normals_.end()) {
+        std::vector<glm::vec4> texels(static_cast<size_t>(size) * size);
+        for (size_t i = 0; i < texels.size(); ++i) {
+            const glm::vec2 texel((i % size + 0.5f) / size, (i / size + 0.5f) / size);
+            const glm::vec3 n = normalFromBallTexel(texel, static_cast<float>(size));
+            // Just inside of the rim, which counts as visible, or filters would read black there.
+            texels[i] = glm::vec4(
+                std::min(1.0f, 0.9999f / glm::length(packedFromNormal(n)) / kPackedReach) * packedFromNormal(n), 0, 0);
+        }
+        found = normals_
+                    .emplace(size,
+                             uploadTexture(context_, VK_IMAGE_TYPE_2D, squareExtent(size), kPackedNormalFormat, texels))
+                    .first;
+    }
+    return found->second;
+}
+
+bool BallCache::prepare()
+{
+    if (!sumIsStale_ && !displayIsStale_) {
+        return false;
+    }
+    const bool keeps = keepsChunks(chunkCount());
+    for (MaterialBalls& material : materials_) {
+        normalsOfBall(material.size);
+        material.chunks.resize(keeps ? std::min(material.chunks.size(), chunkCount()) : 0);
+        while (keeps && material.chunks.size() < chunkCount()) {
+            material.chunks.push_back(makeTarget(context_, squareExtent(material.size), kFloatFormat));
+        }
+        if (!keeps && chunkCount() > 1 && !scratch_.contains(material.size)) {
+            scratch_.emplace(material.size, makeTarget(context_, squareExtent(material.size), kFloatFormat));
+        }
+    }
+    if (const std::pair key{int{modulated_}, displayOptions_.toneCurve}; !encode_.contains(key)) {
+        static_assert(kConstantModulated == 0 && kConstantToneCurve == 1);
+        const std::array constants = {key.first, key.second};
+        encode_.emplace(key, Pipeline(context_, {.fragmentShader = ball_display_frag,
+                                                 .constants = constants,
+                                                 .bindings = kOneInput,
+                                                 .pushConstantBytes = sizeof(BallDisplayConstants),
+                                                 .targetFormat = modulated_ ? kHalfFormat : kCodeFormat}));
+    }
+    return true;
+}
+
+void BallCache::record(VkCommandBuffer commands, std::span<const TableTexture> tables, const LightGroups& lights)
+{
+    for (size_t material = 0; sumIsStale_ && material < materials_.size(); ++material) {
+        recordSum(commands, material, tables[material], lights);
+    }
+    if (sumIsStale_ || displayIsStale_) {
+        recordDisplay(commands);
+    }
+    std::fill(chunkIsStale_.begin(), chunkIsStale_.end(), uint8_t{0});
+    sumIsStale_ = displayIsStale_ = false;
+}
+
+void BallCache::recordChunk(VkCommandBuffer commands, const Texture& target, size_t material, const TableTexture& table,
+                            const LightGroups& lights, size_t chunk)
+{
+    const size_t first = chunk * kLightsPerChunk, last = std::min(first + kLightsPerChunk, lights_.size());
+    imageBarrier(commands, target.image(), kDiscarded, kDrawnTo);
+    beginRendering(commands, target, Load::clear);
+    direct_.record(commands, {normalsOfBall(materials_[material].size), nullptr, table, 0}, lights, first, last);
+    vkCmdEndRendering(commands);
+    imageBarrier(commands, target.image(), kDrawnTo, kSampled);
+    drawnLights_ += last - first;
+}
+
+void BallCache::recordSum(VkCommandBuffer commands, size_t material, const TableTexture& table,
+                          const LightGroups& lights)
+{
+    MaterialBalls& balls = materials_[material];
+    if (chunkCount() <= 1) {
+        recordChunk(commands, balls.sum, material, table, lights, 0);
+        return;
+    }
+    for (size_t chunk = 0; chunk < chunkCount(); ++chunk) {
+        const Texture& picture = balls.chunks.empty() ? scratch_.at(balls.size) : balls.chunks[chunk];
+        if (balls.chunks.empty() || chunkIsStale_[chunk]) {
+            recordChunk(commands, picture, material, table, lights, chunk);
+        }
+        imageBarrier(commands, balls.sum.image(), chunk == 0 ? kDiscarded : kDrawnTo, kDrawnTo);
+        beginRendering(commands, balls.sum, chunk == 0 ? Load::clear : Load::keep);
+        const std::array inputs = {textureInput(kBindingInput, nearest_, picture)};
+        draw(context_, commands, add_, inputs, {});
+        vkCmdEndRendering(commands);
+    }
+    imageBarrier(commands, balls.sum.image(), kDrawnTo, kSampled);
+}
+
+void BallCache::recordDisplay(VkCommandBuffer commands)
+{
+    const Pipeline& encode = encode_.at({int{modulated_}, displayOptions_.toneCurve});
+    imageBarrier(commands, display_.image(), kDiscarded, kDrawnTo);
+    for (size_t material = 0; material < materials_.size(); ++material) {
+        const int column = static_cast<int>(material) % columns_, row = static_cast<int>(material) / columns_;
+        const VkRect2D area{.offset = {column * displaySize_, row * displaySize_},
+                            .extent = {static_cast<uint32_t>(displaySize_), static_cast<uint32_t>(displaySize_)}};
+        const BallDisplayConstants constants{.origin = {area.offset.x, area.offset.y},
+                                             .size = static_cast<float>(displaySize_),
+                                             .inputSize = static_cast<float>(materials_[material].size),
+                                             .gain = std::exp2(displayOptions_.exposureStops)};
+        const std::array inputs = {textureInput(kBindingInput, linear_, materials_[material].sum)};
+        beginRendering(commands, display_, Load::clear, area);
+        draw(context_, commands, encode, inputs, bytesOf(constants));
+        vkCmdEndRendering(commands);
+    }
+    imageBarrier(commands, display_.image(), kDrawnTo, kSampled);
+}
+
+VkDeviceSize BallCache::bytes() const
+{
+    VkDeviceSize bytes = display_.bytes();
+    for (const MaterialBalls& material : materials_) {
+        bytes += material.sum.bytes();
+        for (const Texture& chunk : material.chunks) {
+            bytes += chunk.bytes();
+        }
+    }
+    for (const auto* textures : {&normals_, &scratch_}) {
+        for (const auto& [size, texture] : *textures) {
+            bytes += texture.bytes();
+        }
+    }
+    return bytes;
+}
+
+} // namespace nacre

@@ -1,0 +1,76 @@
+#include "engine/gpu/surface_textures.h"
+
+#include "shared/ball.h"
+
+namespace nacre {
+namespace {
+
+std::vector<glm::vec4> normalTexels(const Surface& surface, bool plain)
+{
+    const NormalMap& map = surface.normals;
+    std::vector<glm::vec4> texels(map.normals.size(), glm::vec4(0));
+    for (size_t i = 0; i < texels.size(); ++i) {
+        if (map.confidence[i] > 0 && (!plain || surface.labels[i] == 0)) {
+            texels[i] = glm::vec4(map.normals[i], map.confidence[i]);
+        }
+    }
+    return texels;
+}
+
+// In place: x, y as shaders/shared/ball.h packs them.
+void pack(std::vector<glm::vec4>& normals)
+{
+    for (glm::vec4& n : normals) {
+        n = n.w > 0 ? glm::vec4(packedFromNormal(glm::vec3(n)), 0, 0) : glm::vec4(1, 1, 0, 0);
+    }
+}
+
+std::vector<glm::vec4> albedoTexels(const Surface& surface)
+{
+    const std::vector<float>& albedo = surface.albedo.values;
+    std::vector<glm::vec4> texels(surface.labels.size());
+    for (size_t i = 0; i < texels.size(); ++i) {
+        const auto label = static_cast<float>(surface.labels[i]);
+        texels[i] = albedo.empty() ? glm::vec4(1, 1, 1, label)
+                                   : glm::vec4(albedo[3 * i], albedo[3 * i + 1], albedo[3 * i + 2], label);
+    }
+    return texels;
+}
+
+} // namespace
+
+bool isPlain(const Surface& surface)
+{
+    return surface.materials.size() == 1 && surface.albedo.values.empty();
+}
+
+PixelTextures uploadPixels(const Context& context, const Surface& surface, Precision precision)
+{
+    const VkExtent3D extent{static_cast<uint32_t>(surface.normals.width), static_cast<uint32_t>(surface.normals.height),
+                            1};
+    const bool plain = isPlain(surface), full = precision == Precision::full;
+    std::vector<glm::vec4> normals = normalTexels(surface, plain);
+    if (!full) {
+        pack(normals);
+    }
+    PixelTextures textures;
+    textures.normals =
+        uploadTexture(context, VK_IMAGE_TYPE_2D, extent, full ? kFloatFormat : kPackedNormalFormat, normals);
+    if (!plain) {
+        textures.albedo =
+            uploadTexture(context, VK_IMAGE_TYPE_2D, extent, full ? kFloatFormat : kHalfFormat, albedoTexels(surface));
+    }
+    return textures;
+}
+
+TableTexture uploadTable(const Context& context, const BrdfTable& table)
+{
+    std::vector<glm::vec4> texels(table.values.size());
+    for (size_t i = 0; i < texels.size(); ++i) {
+        texels[i] = glm::vec4(table.values[i], table.confidence[i]);
+    }
+    const glm::uvec3 size(table.size);
+    return {uploadTexture(context, VK_IMAGE_TYPE_3D, {size.x, size.y, size.z}, kFloatFormat, texels), table.domain};
+}
+
+} // namespace nacre

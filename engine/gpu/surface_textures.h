@@ -1,0 +1,34 @@
+#pragma once
+#include <vector>
+
+#include "engine/gpu/texture.h"
+#include "engine/scene/surface.h"
+
+namespace nacre {
+
+// full: 32-bit floats, for radiance that is measured. compact: 16 bits a channel, for pictures: half the memory and
+// time.
+enum class Precision { full, compact };
+
+// A surface's pixels on the device.
+struct PixelTextures {
+    // full: xyz, w = confidence, all 0 without data. compact: packed. Where the surface is plain, pixels without its
+    // material count as without data.
+    Texture normals;
+    Texture albedo; // rgb, w = material index; empty where the surface is plain
+    VkDeviceSize bytes() const { return normals.bytes() + albedo.bytes(); }
+};
+
+// One material whose albedo factor is 1: the normals say it all.
+bool isPlain(const Surface& surface);
+
+PixelTextures uploadPixels(const Context& context, const Surface& surface, Precision precision);
+
+struct TableTexture {
+    Texture texture; // f in 1/sr, w = confidence
+    TableDomain domain;
+};
+
+TableTexture uploadTable(const Context& context, const BrdfTable& table);
+
+} // namespace nacre
