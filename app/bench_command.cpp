@@ -17,6 +17,7 @@
 #include "engine/scene/brdf_tabulation.h"
 #include "engine/scene/error.h"
 #include "engine/scene/whole_file.h"
+#include "evaluation/bake_benchmark.h"
 
 namespace nacre {
 
@@ -28,6 +29,7 @@ struct BenchArguments {
     int repeats = 15;
     int mostDirectLights = 16; // a direct frame under more takes seconds
     float alpha = 0.3f;
+    bool bake = false; // instead of frames
     std::string device;
     std::filesystem::path json;
 };
@@ -199,6 +201,18 @@ private:
     nlohmann::ordered_json results_;
 };
 
+nlohmann::ordered_json runBakeBench()
+{
+    const BakeBenchmark bench = benchmarkBake(0);
+    const double ratio = bench.bake / bench.bareQueries;
+    fmt::print("{} texels from {} samples, k = {}\n  {:<32}{:9.0f}\n  {:<32}{:9.0f}  ({:.2f})\n", bench.texels,
+               bench.samples, bench.k, "nearest neighbours alone, ms", 1e3 * bench.bareQueries, "bake, ms",
+               1e3 * bench.bake, ratio);
+    return {{"bakeTexels", bench.texels}, {"bakeSamples", bench.samples},
+            {"bakeNeighbours", bench.k},  {"bareQueriesMs", 1e3 * bench.bareQueries},
+            {"bakeMs", 1e3 * bench.bake}, {"bakePerBareQueries", ratio}};
+}
+
 void runBench(const BenchArguments& arguments)
 {
     requireSummaryDestination(arguments.json);
@@ -210,7 +224,7 @@ void runBench(const BenchArguments& arguments)
             throw Error("", fmt::format("--lights {} is out of range", count), "1 to 100000", Error::kUsage);
         }
     }
-    const nlohmann::ordered_json results = Bench(arguments).run();
+    const nlohmann::ordered_json results = arguments.bake ? runBakeBench() : Bench(arguments).run();
     if (!arguments.json.empty()) {
         writeTextFile(arguments.json, results.dump(2) + "\n");
     }
@@ -231,6 +245,8 @@ void addBenchCommand(CLI::App& app)
     command->add_option("--alpha", arguments->alpha, "GGX roughness of the material")
         ->check(CLI::Range(0.001f, 1.0f))
         ->capture_default_str();
+    command->add_flag("--bake", arguments->bake,
+                      "Instead of frames: a table from a million samples, against asking for their neighbours alone");
     command->add_option("--device", arguments->device, "Vulkan device: number or part of its name, see nacre info");
     command->add_option("--json", arguments->json, "Write the figures as flat names");
     command->footer("Example:\n  nacre bench --size 1920x1080 --json bench.json");

@@ -57,6 +57,10 @@ std::string describe(const HeldOutEvaluation& evaluation)
     for (const PredictionScore& score : evaluation.scores) {
         text += fmt::format("{:>8.2f}", score.greyPsnr);
     }
+    text += fmt::format("\n{:<18}", "grey, own peaks");
+    for (const PredictionScore& score : evaluation.scores) {
+        text += fmt::format("{:>8.2f}", score.ownPeakPsnr);
+    }
     return text + "\n";
 }
 
@@ -69,6 +73,7 @@ nlohmann::ordered_json documentOf(const HeldOutEvaluation& evaluation)
         document["methods"].push_back({{"method", score.method},
                                        {"psnrColour", score.psnr},
                                        {"psnrGrey", score.greyPsnr},
+                                       {"psnrGreyOwnPeaks", score.ownPeakPsnr},
                                        {"psnrOfPhotographs", score.photographs}});
     }
     return document;

@@ -67,25 +67,37 @@ float clippedError(float a, float b, double peak)
     return clipped(a) - clipped(b);
 }
 
+double ownPeakOf(const Observations& seen, size_t photograph)
+{
+    std::vector<float> values;
+    for (size_t p = 0; p < seen.pixels.size(); ++p) {
+        values.push_back(greyOf(seen.radianceOf(p)[photograph]));
+    }
+    return values.empty() ? 1.0 : std::max(quantile(values, 0.99), 1e-12f);
+}
+
 PredictionScore scoreOf(const std::string& method, const Truth& truth, const Predictions& predicted)
 {
     const size_t count = truth.heldOut.lightCount, pixels = truth.heldOut.pixels.size();
-    PredictionScore score{method, 0, 0, {}};
-    double pooled = 0, grey = 0;
+    PredictionScore score{method, 0, 0, 0, {}};
+    double pooled = 0, grey = 0, ownPeak = 0;
     for (size_t j = 0; j < count; ++j) {
         double sum = 0;
+        const double peak = ownPeakOf(truth.heldOut, j);
         for (size_t p = 0; p < pixels; ++p) {
             const glm::vec3 &a = predicted[p * count + j], &b = truth.heldOut.radiance[p * count + j];
             for (int c = 0; c < 3; ++c) {
                 sum += std::pow(clippedError(a[c], b[c], truth.peak), 2);
             }
             grey += std::pow(clippedError(greyOf(a), greyOf(b), truth.greyPeak), 2);
+            ownPeak += std::pow(clippedError(greyOf(a), greyOf(b), peak), 2);
         }
         score.photographs.push_back(decibels(sum, 3 * pixels));
         pooled += sum;
     }
     score.psnr = decibels(pooled, 3 * pixels * count);
     score.greyPsnr = decibels(grey, pixels * count);
+    score.ownPeakPsnr = decibels(ownPeak, pixels * count);
     return score;
 }
 

@@ -9,9 +9,10 @@ namespace nacre {
 
 // How well one method predicts photographs that it has not seen.
 struct PredictionScore {
-    std::string method;              // "nacre", or a baseline with the smoothing that served it best
-    double psnr = 0;                 // dB of radiance, colour, errors pooled over the photographs: radiancePsnr
-    double greyPsnr = 0;             // the same of grey pictures
+    std::string method;     // "nacre", or a baseline with the smoothing that served it best
+    double psnr = 0;        // dB of radiance, colour, errors pooled over the photographs: radiancePsnr
+    double greyPsnr = 0;    // the same of grey pictures
+    double ownPeakPsnr = 0; // of grey pictures, each divided by its own 99th percentile: less of a highlight counts
     std::vector<double> photographs; // dB of colour, one each
 };
 
