@@ -237,13 +237,23 @@ std::string describe(const ModelLadder& ladder)
     return text + (ladder.taken ? "" : "  none of them is good enough: the full table stays\n");
 }
 
+namespace {
+
+std::string describeBytes(size_t bytes)
+{
+    const double kibibytes = static_cast<double>(bytes) / 1024;
+    return kibibytes < 1024 ? fmt::format("{:.1f} KiB", kibibytes) : fmt::format("{:.1f} MiB", kibibytes / 1024);
+}
+
+} // namespace
+
 std::string describe(const BrdfTable& table)
 {
     const std::string domain = table.domain.coordinates == kNatural
                                    ? "natural coordinates"
                                    : fmt::format("thetaD to {:.1f} degrees", glm::degrees(table.domain.thetaDMax));
-    return fmt::format("{}x{}x{} ({:.1f} MiB), {}, {:.0f} % of it measured", table.size.x, table.size.y, table.size.z,
-                       static_cast<double>(table.values.size()) * 16 / (1 << 20), domain, 100 * coveredShare(table));
+    return fmt::format("{}x{}x{} ({}), {}, {:.0f} % of it measured", table.size.x, table.size.y, table.size.z,
+                       describeBytes(16 * table.values.size()), domain, 100 * coveredShare(table));
 }
 
 std::string describe(const Light& light)

@@ -26,8 +26,8 @@ constexpr size_t kMostFitted = 4000;
 struct Shrink {
     float thetaH, thetaD, phiD;
 };
-constexpr Shrink kVolumes[] = {{1, 1, 1},           {1, 0.5f, 0.5f},     {1, 0.35f, 0.2f},    {0.7f, 0.5f, 0.25f},
-                               {0.7f, 0.25f, 0.1f}, {0.5f, 0.25f, 0.1f}, {0.35f, 0.2f, 0.1f}, {0.25f, 0.15f, 0.07f}};
+constexpr Shrink kVolumes[] = {{1, 1, 1},           {1, 0.5f, 0.5f},     {1, 0.35f, 0.4f},    {0.7f, 0.5f, 0.5f},
+                               {0.7f, 0.25f, 0.2f}, {0.5f, 0.25f, 0.2f}, {0.35f, 0.2f, 0.2f}, {0.25f, 0.15f, 0.13f}};
 constexpr Shrink kPlanes[] = {{1, 1, 0}, {1, 0.5f, 0}, {1, 0.2f, 0}, {0.5f, 0.2f, 0}, {0.25f, 0.15f, 0}};
 constexpr int kRanks[] = {1, 2, 3, 5, 8, 12};
 
