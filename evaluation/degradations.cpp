@@ -11,6 +11,8 @@
 #include "assets/hash_random.h"
 #include "shared/glsl.h"
 
+#include "shared/brdf_coords.h"
+
 namespace nacre {
 
 namespace {
@@ -81,8 +83,7 @@ void turnDirections(std::vector<Light>& lights, double degrees, uint64_t seed)
     const float angle = glm::radians(static_cast<float>(degrees));
     for (size_t i = 0; i < lights.size(); ++i) {
         glm::vec3& d = lights[i].direction;
-        const glm::vec3 helper = std::abs(d.x) < 0.5f ? glm::vec3(1, 0, 0) : glm::vec3(0, 1, 0);
-        const glm::vec3 u = glm::normalize(glm::cross(d, helper)), v = glm::cross(d, u);
+        const glm::vec3 u = anyPerpendicular(d), v = glm::cross(d, u);
         const float side = 2 * kPi * static_cast<float>(unitFromHash(hashOf(hashOf(seed, kDirections), i)));
         d = glm::normalize(std::cos(angle) * d + std::sin(angle) * (std::cos(side) * u + std::sin(side) * v));
     }

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "acquisition/normals/light_triples.h"
 #include "engine/scene/measures.h"
 #include "engine/scene/parallel_for.h"
 #include "engine/scene/reference.h"
@@ -115,15 +116,6 @@ Predictions predictByModel(const Surface& surface, const Truth& truth, int threa
         }
     }
     return predicted;
-}
-
-std::vector<glm::vec3> directionsOf(const std::vector<Light>& lights)
-{
-    std::vector<glm::vec3> directions;
-    for (const Light& light : lights) {
-        directions.push_back(light.direction);
-    }
-    return directions;
 }
 
 Predictions predictByWeights(const Truth& truth, const std::vector<float>& weights, int threads)

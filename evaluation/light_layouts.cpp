@@ -7,6 +7,8 @@
 
 #include "shared/glsl.h"
 
+#include "shared/brdf_coords.h"
+
 namespace nacre {
 
 namespace {
@@ -41,8 +43,7 @@ std::vector<Light> spreadLights(size_t count, double capDegrees, const glm::vec3
 {
     const float goldenAngle = kPi * (3 - std::sqrt(5.0f));
     const float height = 1 - std::cos(glm::radians(static_cast<float>(capDegrees)));
-    const glm::vec3 helper = std::abs(centre.x) < 0.5f ? glm::vec3(1, 0, 0) : glm::vec3(0, 1, 0);
-    const glm::vec3 u = glm::normalize(glm::cross(helper, centre)), v = glm::cross(centre, u);
+    const glm::vec3 u = -anyPerpendicular(centre), v = glm::cross(centre, u);
     std::vector<Light> lights(count);
     for (size_t i = 0; i < count; ++i) {
         const float z = 1 - height * (static_cast<float>(i) + 0.5f) / static_cast<float>(count);

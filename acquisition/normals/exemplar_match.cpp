@@ -14,16 +14,6 @@ namespace {
 // The refit of the scale trusts residuals a little beyond the limit.
 constexpr float kScaleLimit = 1.5f;
 
-float sumOf(const float* lanes)
-{
-    return ((lanes[0] + lanes[1]) + (lanes[2] + lanes[3])) + ((lanes[4] + lanes[5]) + (lanes[6] + lanes[7]));
-}
-
-float sumOf(const Lanes& lanes)
-{
-    return sumOf(reinterpret_cast<const float*>(&lanes));
-}
-
 // A first scale that a few highlights do not move: least squares on square roots.
 NACRE_VECTOR_CLONES
 float roughScale(const float* column, const float* columnRoots, size_t stride, const MatchTarget& target)

@@ -51,12 +51,6 @@ void addUp(const BallCell& cell, size_t stride, const MatchTarget& target, float
     }
 }
 
-float sumOf(const Lanes& lanes)
-{
-    const auto* l = reinterpret_cast<const float*>(&lanes);
-    return ((l[0] + l[1]) + (l[2] + l[3])) + ((l[4] + l[5]) + (l[6] + l[7]));
-}
-
 // (x, y, scale); zero where the observations do not determine it.
 Eigen::Vector3f stepOf(const Sums& sums)
 {

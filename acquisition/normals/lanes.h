@@ -12,6 +12,13 @@ inline const Lanes& lanesAt(const float* first)
     return *reinterpret_cast<const Lanes*>(first);
 }
 
+// Pairwise, so that the result does not depend on how it is compiled.
+inline float sumOf(const Lanes& lanes)
+{
+    const auto* l = reinterpret_cast<const float*>(&lanes);
+    return ((l[0] + l[1]) + (l[2] + l[3])) + ((l[4] + l[5]) + (l[6] + l[7]));
+}
+
 } // namespace nacre
 
 // A function compiled twice, for AVX2 and for any x86-64, chosen when the program starts. Neither fuses multiply-add,

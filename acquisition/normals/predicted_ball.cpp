@@ -14,11 +14,6 @@ namespace {
 // The outermost texels look along the surface, where nothing is measured.
 constexpr float kRim = 0.9975f; // radius on the disc
 
-glm::vec2 discOf(int x, int y, int size)
-{
-    return {2 * (x + 0.5f) / size - 1, 1 - 2 * (y + 0.5f) / size};
-}
-
 } // namespace
 
 int PredictedBall::rowOf(const glm::vec3& normal) const
@@ -88,10 +83,10 @@ PredictedBall makePredictedBall(int size, const std::vector<glm::vec3>& directio
     ball.rows.assign(static_cast<size_t>(size) * size, -1);
     for (int y = 0; y < size; ++y) {
         for (int x = 0; x < size; ++x) {
-            const glm::vec2 disc = discOf(x, y, size);
-            if (glm::length(disc) < kRim) {
+            const glm::vec3 normal = normalOfBallTexel({x, y}, size);
+            if (glm::length(glm::vec2(normal)) < kRim) {
                 ball.rows[static_cast<size_t>(y) * size + x] = static_cast<int>(ball.normals.size());
-                ball.normals.emplace_back(disc, std::sqrt(1 - glm::dot(disc, disc)));
+                ball.normals.push_back(normal);
             }
         }
     }

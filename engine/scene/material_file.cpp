@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/scene/error.h"
+#include "engine/scene/json_vector.h"
 
 namespace nacre {
 namespace fs = std::filesystem;
@@ -16,16 +17,6 @@ namespace {
 // Coverage changes slowly: texels that are kept of it beside a model that is not a table.
 constexpr glm::ivec3 kCoverageSize{24, 12, 8};
 constexpr int kLargestRank = 64;
-
-Json jsonOf(const glm::vec3& v)
-{
-    return Json::array({v.x, v.y, v.z});
-}
-
-glm::vec3 vec3Of(const Json& json)
-{
-    return {json.at(0).get<float>(), json.at(1).get<float>(), json.at(2).get<float>()};
-}
 
 // One row of the picture for each `width` of values.
 void saveRows(const fs::path& file, const std::vector<float>& values, int width)

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/scene/error.h"
+#include "engine/scene/json_vector.h"
 #include "engine/scene/material_file.h"
 #include "engine/scene/whole_file.h"
 
@@ -16,16 +17,6 @@ using Json = nlohmann::json;
 namespace {
 
 constexpr int kVersion = 1;
-
-Json jsonOf(const glm::vec3& v)
-{
-    return Json::array({v.x, v.y, v.z});
-}
-
-glm::vec3 vec3Of(const Json& json)
-{
-    return {json.at(0).get<float>(), json.at(1).get<float>(), json.at(2).get<float>()};
-}
 
 Json describe(const Surface& surface)
 {
