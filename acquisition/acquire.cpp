@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "acquisition/material_albedo.h"
+#include "acquisition/material_models.h"
 #include "acquisition/material_samples.h"
 #include "engine/scene/error.h"
 
@@ -65,12 +66,6 @@ BrdfInterpolant interpolate(const BrdfSamples& samples, const AcquireOptions& op
     return makeInterpolant(samples, choice.options);
 }
 
-// What a material's table is made of, and the table.
-struct BakedMaterial {
-    BrdfInterpolant interpolant;
-    BakedBrdf baked;
-};
-
 std::vector<BakedMaterial> bakeAll(const std::vector<BrdfSamples>& samples, const AcquireOptions& options,
                                    Acquisition& result)
 {
@@ -84,28 +79,10 @@ std::vector<BakedMaterial> bakeAll(const std::vector<BrdfSamples>& samples, cons
         }
         BrdfInterpolant interpolant = interpolate(samples[i], options, result.fits.emplace_back().interpolation);
         BakedBrdf baked = bakeBrdf(samples[i], interpolant, options.bake);
-        materials.push_back({std::move(interpolant), std::move(baked)});
+        materials.push_back(
+            {result.segmentation.regions[i].name, std::move(interpolant), std::move(baked), glm::vec3(1)});
     }
     return materials;
-}
-
-// The material as small as it was asked for, or its full table. `scale`: of the table over the interpolant.
-Material compactMaterial(const std::string& name, BakedBrdf baked, const BrdfInterpolant& interpolant,
-                         const glm::vec3& scale, const LadderOptions& options, ModelLadder& ladder)
-{
-    if (options.isAsked()) {
-        const auto scaled = [&](const glm::vec3& unit) {
-            InterpolatedValue value = interpolant(unit);
-            value.value *= scale;
-            return value;
-        };
-        ladder = climbLadder(scaled, baked.table, options);
-    }
-    if (!ladder.taken) {
-        return {name, std::move(baked.table), std::move(baked.coverage), {}};
-    }
-    const CompactBrdf& model = ladder.steps[*ladder.taken].model;
-    return {name, expandedTable(model, baked.table), {}, model};
 }
 
 Surface surfaceOf(const Capture& capture, const Acquisition& result, NormalMap normals, Image albedo,
@@ -155,16 +132,16 @@ Acquisition acquire(const Capture& capture, const AcquireOptions& options, const
         });
     });
     const std::vector<glm::vec3> scales = finishAlbedo(capture, labels, tables, albedo);
-    std::vector<Material> materials = clock.time("model", [&] {
-        std::vector<Material> compact;
-        for (size_t i = 0; i < baked.size(); ++i) {
-            compact.push_back(compactMaterial(result.segmentation.regions[i].name, std::move(baked[i].baked),
-                                              baked[i].interpolant, scales[i], options.ladder, result.fits[i].ladder));
-        }
-        return compact;
-    });
+    for (size_t i = 0; i < baked.size(); ++i) {
+        baked[i].scale = scales[i];
+    }
+    ReducedMaterials reduced = clock.time("model", [&] { return reduceMaterials(std::move(baked), options.ladder); });
+    for (size_t i = 0; i < reduced.ladders.size(); ++i) {
+        result.fits[i].ladder = std::move(reduced.ladders[i]);
+    }
+    result.shared = std::move(reduced.shared);
     result.surface = surfaceOf(selectPhotographs(capture, estimate.given), result, std::move(estimate.normals),
-                               std::move(albedo), std::move(materials));
+                               std::move(albedo), std::move(reduced.materials));
     return result;
 }
 

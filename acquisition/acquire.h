@@ -1,6 +1,7 @@
 #pragma once
 #include "acquisition/acquire_options.h"
 #include "acquisition/brdf/interpolation_choice.h"
+#include "acquisition/brdf/shared_ladder.h"
 #include "acquisition/normal_estimation.h"
 #include "acquisition/segmentation/segmentation.h"
 #include "engine/scene/surface.h"
@@ -19,6 +20,7 @@ struct Acquisition {
     Segmentation segmentation;
     SampleCounts samples;          // of all materials' inner pixels
     std::vector<MaterialFit> fits; // one a material
+    SharedLadder shared;           // of several materials, where a smaller model was asked for
 };
 
 // Photographs -> lights -> normals -> materials -> samples -> BRDF tables -> albedo factors: the whole chain. A capture

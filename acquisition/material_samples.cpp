@@ -19,7 +19,8 @@ void storeAlbedo(const Observations& block, const std::vector<glm::vec3>& factor
 
 } // namespace
 
-void MaterialSamples::gather(const Observations& block, const NormalBlock& normals, const std::vector<Light>& lights, Image& albedo)
+void MaterialSamples::gather(const Observations& block, const NormalBlock& normals, const std::vector<Light>& lights,
+                             Image& albedo)
 {
     const std::vector<glm::vec3> factors = albedoFactors(block, normals, lights);
     storeAlbedo(block, factors, albedo);

@@ -28,8 +28,8 @@ TableDomain capturedDomain(const std::vector<Light>& lights, int coordinates);
 // What of the domain a table is to span.
 TableDomain tableDomain(const std::vector<Light>& lights, const BakeOptions& options);
 
-// 90 texels over thetaH (MERL's density), one a degree over thetaD, one every four degrees over the folded phiD, along which f changes least.
-// Natural: 90 x 90 x 90.
+// 90 texels over thetaH (MERL's density), one a degree over thetaD, one every four degrees over the folded phiD, along
+// which f changes least. Natural: 90 x 90 x 90.
 glm::ivec3 tableSize(const TableDomain& domain);
 
 struct BakedBrdf {

@@ -3,8 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "acquisition/brdf/interpolation.h"
-#include "engine/scene/compact_brdf.h"
+#include "acquisition/brdf/model_judge.h"
 
 namespace nacre {
 
@@ -30,9 +29,7 @@ struct ModelLadder {
     std::optional<size_t> taken;   // empty where none meets the bound: the full table stays
 };
 
-// The models from Lambert to the full table, each judged against the interpolant itself: radiance of a reference ball
-// under lights over the range that the table spans, where it is covered; divided by its 99th percentile and clipped to
-// [0, 1]. `full` is the table baked from the interpolant.
-ModelLadder climbLadder(const BrdfInterpolant& interpolant, const BrdfTable& full, const LadderOptions& options);
+// The models from Lambert to the full table, each judged.
+ModelLadder climbLadder(const ModelJudge& judge, const LadderOptions& options);
 
 } // namespace nacre

@@ -19,11 +19,11 @@ constexpr glm::ivec3 kCoverageSize{24, 12, 8};
 constexpr int kLargestRank = 64;
 
 // One row of the picture for each `width` of values.
-void saveRows(const fs::path& file, const std::vector<float>& values, int width)
+void saveRows(const fs::path& file, const std::vector<float>& values, int width, PixelType type = PixelType::float32)
 {
     Image image(width, static_cast<int>(values.size() / width), 1);
     image.values = values;
-    saveImage(file, image, PixelType::float32);
+    saveImage(file, image, type);
 }
 
 std::vector<float> loadRows(const fs::path& file, int width, int height)
@@ -41,6 +41,17 @@ Json describeLobe(const AbcModel& m)
     return {{"kind", "lobe"}, {"kD", jsonOf(m.kD)}, {"A", jsonOf(m.A)}, {"B", m.B}, {"C", m.C}, {"ior", m.ior}};
 }
 
+AbcModel lobeOf(const Json& json)
+{
+    AbcModel m;
+    m.kD = vec3Of(json.at("kD"));
+    m.A = vec3Of(json.at("A"));
+    m.B = json.at("B").get<float>();
+    m.C = json.at("C").get<float>();
+    m.ior = json.at("ior").get<float>();
+    return m;
+}
+
 Json saveLowRank(const fs::path& folder, const LowRankTable& m, size_t index)
 {
     const std::string profiles = fmt::format("material_{}_profiles.exr", index),
@@ -50,30 +61,19 @@ Json saveLowRank(const fs::path& folder, const LowRankTable& m, size_t index)
     return {{"kind", "low-rank"}, {"rank", m.rank}, {"profiles", profiles}, {"slices", slices}};
 }
 
-// `covered`: of the full size and domain.
-CompactBrdf modelOf(const fs::path& folder, const Json& json, const BrdfTable& covered)
+int rankOf(const fs::path& folder, const Json& json)
 {
-    const std::string kind = json.at("kind").get<std::string>();
-    if (kind == "lobe") {
-        AbcModel m;
-        m.kD = vec3Of(json.at("kD"));
-        m.A = vec3Of(json.at("A"));
-        m.B = json.at("B").get<float>();
-        m.C = json.at("C").get<float>();
-        m.ior = json.at("ior").get<float>();
-        return FittedLobe{m};
-    }
-    if (kind == "table") {
-        return SmallTable{covered, texelFormatFromName(json.at("format").get<std::string>())};
-    }
-    if (kind != "low-rank") {
-        throw Error(folder / "surface.json", "names a model \"" + kind + "\"", "lobe, table or low-rank");
-    }
-    LowRankTable m{covered.size, covered.domain, json.at("rank").get<int>(), {}, {}};
-    if (m.rank < 1 || m.rank > kLargestRank) {
-        throw Error(folder / "surface.json", fmt::format("names a model of rank {}", m.rank),
+    const int rank = json.at("rank").get<int>();
+    if (rank < 1 || rank > kLargestRank) {
+        throw Error(folder / "surface.json", fmt::format("names a model of rank {}", rank),
                     fmt::format("1 to {}", kLargestRank));
     }
+    return rank;
+}
+
+LowRankTable loadLowRank(const fs::path& folder, const Json& json, const BrdfTable& covered)
+{
+    LowRankTable m{covered.size, covered.domain, rankOf(folder, json), {}, {}};
     m.profiles = loadRows(folder / json.at("profiles").get<std::string>(), m.size.x, 3 * m.rank);
     m.slices = loadRows(folder / json.at("slices").get<std::string>(), m.size.y, m.size.z * m.rank);
     return m;
@@ -91,47 +91,106 @@ glm::ivec3 sizeOf(const fs::path& folder, const Json& json)
 
 } // namespace
 
-Json saveMaterial(const fs::path& folder, const Material& material, size_t index)
+Json MaterialFolder::saveBasis(const BasisBrdf& model, size_t index)
+{
+    auto [saved, isNew] = savedBases_.try_emplace(model.basis.get(), fmt::format("basis_{}.exr", index));
+    if (isNew) {
+        saveRows(folder_ / saved->second, model.basis->components, model.basis->size.x, PixelType::half);
+    }
+    return {{"kind", "basis"},
+            {"rank", model.basis->rank},
+            {"components", saved->second},
+            {"coefficients", model.coefficients}};
+}
+
+BasisBrdf MaterialFolder::loadBasis(const Json& json, const BrdfTable& covered)
+{
+    const std::string name = json.at("components").get<std::string>();
+    const int rank = rankOf(folder_, json);
+    std::shared_ptr<const BrdfBasis>& basis = loadedBases_[name];
+    if (!basis) {
+        const glm::ivec3& size = covered.size;
+        basis = std::make_shared<BrdfBasis>(
+            BrdfBasis{size, covered.domain, rank, loadRows(folder_ / name, size.x, size.y * size.z * rank)});
+    }
+    BasisBrdf model{basis, json.at("coefficients").get<std::vector<float>>()};
+    if (basis->size != covered.size || basis->rank != rank || model.coefficients.size() != size_t{3} * rank) {
+        throw Error(folder_ / "surface.json", "has a material that does not go with " + name,
+                    fmt::format("{} coefficients and a table of {}x{}x{}", 3 * basis->rank, basis->size.x,
+                                basis->size.y, basis->size.z));
+    }
+    return model;
+}
+
+Json MaterialFolder::saveModel(const CompactBrdf& model, size_t index)
+{
+    if (const auto* lobe = std::get_if<FittedLobe>(&model)) {
+        return describeLobe(lobe->model);
+    }
+    if (const auto* small = std::get_if<SmallTable>(&model)) {
+        return {{"kind", "table"}, {"format", nameOf(small->format)}};
+    }
+    if (const auto* lowRank = std::get_if<LowRankTable>(&model)) {
+        return saveLowRank(folder_, *lowRank, index);
+    }
+    return saveBasis(std::get<BasisBrdf>(model), index);
+}
+
+// `covered`: of the full size and domain.
+CompactBrdf MaterialFolder::loadModel(const Json& json, const BrdfTable& covered)
+{
+    const std::string kind = json.at("kind").get<std::string>();
+    if (kind == "lobe") {
+        return FittedLobe{lobeOf(json)};
+    }
+    if (kind == "table") {
+        return SmallTable{covered, texelFormatFromName(json.at("format").get<std::string>())};
+    }
+    if (kind == "low-rank") {
+        return loadLowRank(folder_, json, covered);
+    }
+    if (kind == "basis") {
+        return loadBasis(json, covered);
+    }
+    throw Error(folder_ / "surface.json", "names a model \"" + kind + "\"", "lobe, table, low-rank or basis");
+}
+
+Json MaterialFolder::save(const Material& material, size_t index)
 {
     const std::string table = fmt::format("material_{}.exr", index);
     Json json = {{"name", material.name}, {"table", table}};
     if (!material.coverage.distance.empty()) {
         json["coverage"] = fmt::format("material_{}_coverage.exr", index);
-        saveCoverage(folder / json["coverage"].get<std::string>(), material.table.size, material.coverage);
+        saveCoverage(folder_ / json["coverage"].get<std::string>(), material.table.size, material.coverage);
     }
     if (!material.compact || std::holds_alternative<SmallTable>(*material.compact)) {
-        saveBrdfTable(folder / table, material.table);
+        saveBrdfTable(folder_ / table, material.table);
     } else {
-        saveBrdfTable(folder / table, resampledTable(material.table, glm::min(material.table.size, kCoverageSize)));
         const glm::ivec3& s = material.table.size;
+        saveBrdfTable(folder_ / table,
+                      resampledTable(material.table, glm::min(s, kCoverageSize), material.table.domain));
         json["size"] = Json::array({s.x, s.y, s.z});
     }
     if (material.compact) {
-        if (const auto* lobe = std::get_if<FittedLobe>(&*material.compact)) {
-            json["model"] = describeLobe(lobe->model);
-        } else if (const auto* small = std::get_if<SmallTable>(&*material.compact)) {
-            json["model"] = {{"kind", "table"}, {"format", nameOf(small->format)}};
-        } else {
-            json["model"] = saveLowRank(folder, std::get<LowRankTable>(*material.compact), index);
-        }
+        json["model"] = saveModel(*material.compact, index);
     }
     return json;
 }
 
-Material loadMaterial(const fs::path& folder, const Json& json)
+Material MaterialFolder::load(const Json& json)
 {
     Material material;
     material.name = json.at("name").get<std::string>();
-    material.table = loadBrdfTable(folder / json.at("table").get<std::string>());
+    material.table = loadBrdfTable(folder_ / json.at("table").get<std::string>());
     if (json.contains("model")) {
         if (json.contains("size")) {
-            material.table = resampledTable(material.table, sizeOf(folder, json.at("size")));
+            material.table = resampledTable(material.table, sizeOf(folder_, json.at("size")), material.table.domain);
         }
-        material.compact = modelOf(folder, json.at("model"), material.table);
+        material.compact = loadModel(json.at("model"), material.table);
         material.table = expandedTable(*material.compact, material.table);
     }
     if (json.contains("coverage")) {
-        material.coverage = loadCoverage(folder / json.at("coverage").get<std::string>(), material.table.size);
+        material.coverage = loadCoverage(folder_ / json.at("coverage").get<std::string>(), material.table.size);
     }
     return material;
 }

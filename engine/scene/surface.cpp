@@ -82,8 +82,9 @@ Surface surfaceOf(const fs::path& folder, const Json& json)
     Surface surface;
     surface.scale = json.at("scale") == "absolute" ? RadianceScale::absolute : RadianceScale::relative;
     surface.normals = loadNormalMap(folder / json.at("normals").get<std::string>());
+    MaterialFolder materials(folder);
     for (const Json& material : json.at("materials")) {
-        surface.materials.push_back(loadMaterial(folder, material));
+        surface.materials.push_back(materials.load(material));
     }
     surface.labels = loadLabels(folder / json.at("labels").get<std::string>(), surface);
     if (json.contains("albedo")) {
@@ -116,8 +117,9 @@ void saveSurface(const fs::path& folder, const Surface& surface, bool replace)
         saveImage(to / "albedo.exr", surface.albedo, PixelType::float32);
     }
     Json json = describe(surface);
+    MaterialFolder materials(to);
     for (size_t i = 0; i < surface.materials.size(); ++i) {
-        json["materials"].push_back(saveMaterial(to, surface.materials[i], i));
+        json["materials"].push_back(materials.save(surface.materials[i], i));
     }
     writeTextFile(to / "surface.json", json.dump(2) + "\n");
     output.commit();

@@ -15,11 +15,6 @@ namespace {
 constexpr float kLargestHalf = 65504;
 constexpr float kLargestShared = 65408; // 511/512 of 2^16
 
-float throughHalf(float value)
-{
-    return glm::unpackHalf1x16(glm::packHalf1x16(std::min(value, kLargestHalf)));
-}
-
 // Khronos Data Format Specification 1.3, 10.3 (shared exponent): 9 bits a mantissa, exponent bias 15. GLM's own packing
 // loses the exponent of large values.
 glm::vec3 throughSharedExponent(const glm::vec3& v)
@@ -37,6 +32,11 @@ glm::vec3 throughSharedExponent(const glm::vec3& v)
 }
 
 } // namespace
+
+float throughHalf(float value)
+{
+    return glm::unpackHalf1x16(glm::packHalf1x16(std::clamp(value, -kLargestHalf, kLargestHalf)));
+}
 
 std::string nameOf(TexelFormat format)
 {

@@ -17,6 +17,9 @@ std::string nameOf(TexelFormat format);                   // "RGBA32F", "RGBA16F
 TexelFormat texelFormatFromName(const std::string& name); // throws Error (data)
 size_t bytesPerTexel(TexelFormat format);
 
+// Rounded to 16 bits; +-65504 at most.
+float throughHalf(float value);
+
 // What is left of a value once the format has held it; not negative, finite.
 glm::vec3 quantised(const glm::vec3& value, TexelFormat format);
 

@@ -30,7 +30,8 @@ BrdfInterpolant truthOf(const BrdfModel& model)
 
 ModelLadder ladderOf(const BrdfModel& model, const LadderOptions& options)
 {
-    return climbLadder(truthOf(model), fullTableOf(model), options);
+    const BrdfTable full = fullTableOf(model);
+    return climbLadder({truthOf(model), full, 1}, options);
 }
 
 const BrdfModel kLambert = LambertGgx{{0.5f, 0.3f, 0.2f}, glm::vec3(0), 0.5f};
@@ -71,7 +72,7 @@ TEST(ModelLadder, SaysNothingWhereNothingIsCovered)
 {
     BrdfTable table = fullTableOf(kLambert);
     std::fill(table.confidence.begin(), table.confidence.end(), 0.0f);
-    const ModelLadder ladder = climbLadder(truthOf(kLambert), table, {.toleranceDecibels = 45, .threads = 1});
+    const ModelLadder ladder = climbLadder({truthOf(kLambert), table, 1}, {.toleranceDecibels = 45, .threads = 1});
     EXPECT_TRUE(ladder.steps.empty());
     EXPECT_FALSE(ladder.taken);
 }
