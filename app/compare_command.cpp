@@ -1,3 +1,4 @@
+#include <cmath>
 #include <memory>
 
 #include <fmt/format.h>
@@ -5,14 +6,18 @@
 
 #include "acquisition/capture/capture.h"
 #include "app/commands.h"
+#include "engine/scene/code_difference.h"
 #include "engine/scene/error.h"
 #include "engine/scene/image.h"
 #include "engine/scene/measures.h"
+#include "engine/scene/structural_similarity.h"
 #include "engine/scene/whole_file.h"
 
 namespace nacre {
 
 namespace {
+
+constexpr int kCodeTolerance = 4; // of 255: what docs/speed.md counts
 
 struct CompareArguments {
     std::filesystem::path picture;
@@ -21,6 +26,15 @@ struct CompareArguments {
     std::filesystem::path json;
     double peak = 0;
     double atLeast = 0;
+    int codeTolerance = kCodeTolerance;
+    double ssimAtLeast = -1;
+};
+
+struct Comparison {
+    double peak = 0;                 // radiance that counts as 1
+    double psnr = 0;                 // dB of radiance
+    double structuralSimilarity = 0; // of 8-bit codes, as the difference below
+    CodeDifference codes;
 };
 
 Image loadForComparison(const std::filesystem::path& file)
@@ -44,7 +58,18 @@ double peakOf(const Image& reference, std::span<const uint8_t> mask)
     return values.empty() ? 0 : quantile(values, 0.99);
 }
 
-void runCompare(const CompareArguments& arguments)
+bool holdsCodes(const std::filesystem::path& file)
+{
+    return readImageHeader(file).pixelType.starts_with("uint");
+}
+
+// What the eye compares. Two files of integers are taken as they are; else radiance up to `peak` is shown as sRGB.
+Image codesOf(const Image& radiance, const std::filesystem::path& file, bool asStored, double peak)
+{
+    return asStored ? loadImage(file) : displayImage(radiance, static_cast<float>(-std::log2(peak)));
+}
+
+Comparison compare(const CompareArguments& arguments)
 {
     const Image picture = loadForComparison(arguments.picture);
     const Image reference = loadForComparison(arguments.reference);
@@ -56,18 +81,56 @@ void runCompare(const CompareArguments& arguments)
     const std::vector<uint8_t> mask = arguments.mask.empty()
                                           ? std::vector<uint8_t>(reference.pixelCount(), 1)
                                           : loadMask(arguments.mask, reference.width, reference.height);
-    const double peak = arguments.peak > 0 ? arguments.peak : peakOf(reference, mask);
-    if (!(peak > 0)) {
+    Comparison found;
+    found.peak = arguments.peak > 0 ? arguments.peak : peakOf(reference, mask);
+    if (!(found.peak > 0)) {
         throw Error(arguments.reference, "is black", "a picture with light in it");
     }
-    const double psnr = radiancePsnr(picture, reference, mask, peak);
-    fmt::print("PSNR {:.2f} dB of radiance, peak {:.4g}\n", psnr, peak);
-    if (!arguments.json.empty()) {
-        writeTextFile(arguments.json, nlohmann::json{{"radiancePsnr", psnr}, {"peak", peak}}.dump(2) + "\n");
+    found.psnr = radiancePsnr(picture, reference, mask, found.peak);
+    const bool asStored = holdsCodes(arguments.picture) && holdsCodes(arguments.reference);
+    const Image codes = codesOf(picture, arguments.picture, asStored, found.peak);
+    const Image referenceCodes = codesOf(reference, arguments.reference, asStored, found.peak);
+    found.structuralSimilarity = structuralSimilarity(codes, referenceCodes, mask);
+    found.codes = codeDifference(codes, referenceCodes, mask, arguments.codeTolerance);
+    return found;
+}
+
+void writeJson(const CompareArguments& arguments, const Comparison& found)
+{
+    const nlohmann::json json = {{"radiancePsnr", found.psnr},
+                                 {"peak", found.peak},
+                                 {"structuralSimilarity", found.structuralSimilarity},
+                                 {"largestCodeDifference", found.codes.largest},
+                                 {"codeTolerance", arguments.codeTolerance},
+                                 {"shareBeyondTolerance", found.codes.share()}};
+    writeTextFile(arguments.json, json.dump(2) + "\n");
+}
+
+Error checkFailed(const CompareArguments& arguments, const std::string& figure, const std::string& expected)
+{
+    return Error(arguments.picture, figure, expected, Error::kCheckFailed);
+}
+
+void runCompare(const CompareArguments& arguments)
+{
+    if (arguments.codeTolerance < 0) {
+        throw Error("", fmt::format("--code-tolerance {} is not possible", arguments.codeTolerance), "0 to 255",
+                    Error::kUsage);
     }
-    if (psnr < arguments.atLeast) {
-        throw Error(arguments.picture, fmt::format("PSNR {:.2f} dB", psnr),
-                    fmt::format("at least {:.2f} dB", arguments.atLeast), Error::kCheckFailed);
+    const Comparison found = compare(arguments);
+    fmt::print("PSNR {:.2f} dB of radiance, peak {:.4g}\n", found.psnr, found.peak);
+    fmt::print("SSIM {:.5f}; codes differ by {} of 255 at most, {:.3f} % of the pixels by more than {}\n",
+               found.structuralSimilarity, found.codes.largest, 100 * found.codes.share(), arguments.codeTolerance);
+    if (!arguments.json.empty()) {
+        writeJson(arguments, found);
+    }
+    if (found.psnr < arguments.atLeast) {
+        throw checkFailed(arguments, fmt::format("PSNR {:.2f} dB", found.psnr),
+                          fmt::format("at least {:.2f} dB", arguments.atLeast));
+    }
+    if (found.structuralSimilarity < arguments.ssimAtLeast) {
+        throw checkFailed(arguments, fmt::format("SSIM {:.5f}", found.structuralSimilarity),
+                          fmt::format("at least {:.5f}", arguments.ssimAtLeast));
     }
 }
 
@@ -76,7 +139,8 @@ void runCompare(const CompareArguments& arguments)
 void addCompareCommand(CLI::App& app)
 {
     auto arguments = std::make_shared<CompareArguments>();
-    CLI::App* command = app.add_subcommand("compare", "How far a picture is from a reference: PSNR of radiance");
+    CLI::App* command = app.add_subcommand(
+        "compare", "How far a picture is from a reference: PSNR of radiance, SSIM and codes of what the eye sees");
     command
         ->add_option("PICTURE", arguments->picture,
                      "Picture to judge, of linear radiance: render's .exr (its .png is exposed for the eye)")
@@ -86,6 +150,9 @@ void addCompareCommand(CLI::App& app)
     command->add_option("--peak", arguments->peak,
                         "Radiance that counts as 1 (default: the reference's 99th percentile)");
     command->add_option("--at-least", arguments->atLeast, "Exit with 1 below this PSNR in dB");
+    command->add_option("--code-tolerance", arguments->codeTolerance,
+                        "Count pixels off by more than this many of 255 codes [4]");
+    command->add_option("--ssim-at-least", arguments->ssimAtLeast, "Exit with 1 below this structural similarity");
     command->add_option("--json", arguments->json, "Write the figures to this file too");
     command->footer("Example:\n  nacre compare render.exr horse.4.tga --mask horse.mask.tga --at-least 20");
     command->callback([arguments] { runCompare(*arguments); });

@@ -17,8 +17,9 @@ struct ProgramRun {
     std::string err;
 };
 
-// Starts the program as its users do; `environment` as a shell has it in front of a command, e.g. "NAME=value".
-inline ProgramRun runNacre(const std::vector<std::string>& arguments, const std::string& environment = "")
+// `environment` as a shell has it in front of a command, e.g. "NAME=value".
+inline ProgramRun runProgram(const std::filesystem::path& program, const std::vector<std::string>& arguments,
+                             const std::string& environment = "")
 {
     const auto contentOf = [](const std::filesystem::path& file) {
         std::stringstream text;
@@ -26,13 +27,19 @@ inline ProgramRun runNacre(const std::vector<std::string>& arguments, const std:
         return text.str();
     };
     const TempFolder folder;
-    std::string command = environment + " '" NACRE_EXECUTABLE "'";
+    std::string command = environment + " '" + program.string() + "'";
     for (const std::string& argument : arguments) {
         command += " '" + argument + "'";
     }
     command += " > '" + (folder / "out").string() + "' 2> '" + (folder / "err").string() + "'";
     const int status = std::system(command.c_str());
     return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, contentOf(folder / "out"), contentOf(folder / "err")};
+}
+
+// Starts nacre as its users do.
+inline ProgramRun runNacre(const std::vector<std::string>& arguments, const std::string& environment = "")
+{
+    return runProgram(NACRE_EXECUTABLE, arguments, environment);
 }
 
 } // namespace nacre
