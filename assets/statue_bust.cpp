@@ -37,12 +37,23 @@ float cloak(const vec3& p, float body)
     return common(shell, edge * 0.9f, 0.05f);
 }
 
+float bodyDistance(const vec3& p)
+{
+    vec3 q(foldedX(p.x), p.y, p.z);
+    return joined(neck(p, q), chest(q), 0.18f);
+}
+
 } // namespace
+
+bool onCloak(const vec3& p)
+{
+    float body = bodyDistance(p);
+    return cloak(p, body) < body;
+}
 
 float bustDistance(const vec3& p)
 {
-    vec3 q(foldedX(p.x), p.y, p.z);
-    float d = joined(neck(p, q), chest(q), 0.18f);
+    float d = bodyDistance(p);
     if (d > 0.45f) {
         return d - 0.25f; // folds rise less than that above the body
     }

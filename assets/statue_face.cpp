@@ -76,19 +76,19 @@ float mouth(const vec3& q, float face)
     float gape = 0.010f - 0.25f * q.x * q.x; // closes at the corners
     float slit = std::max(std::abs(across) - gape, z - 0.02f - q.z);
     d = carved(d, slit, 0.025f);
-    d = carved(d, ellipsoid(q - vec3(0.225f, -0.515f, 0.600f), {0.035f, 0.035f, 0.045f}), 0.07f); // corner
+    d = carved(d, ellipsoid(q - vec3(0.225f, -0.515f, 0.600f), {0.024f, 0.028f, 0.040f}), 0.11f); // corner
     d = carved(d, ellipsoid(q - vec3(0, -0.365f, 0.715f), {0.026f, 0.060f, 0.030f}), 0.04f);      // philtrum
     return carved(d, ellipsoid(q - vec3(0, -0.655f, 0.640f), {0.130f, 0.042f, 0.060f}), 0.08f);   // under the lip
 }
 
 float ear(const vec3& q)
 {
-    vec3 e = q - vec3(0.650f, -0.02f, -0.08f);
+    vec3 e = q - vec3(0.640f, 0.02f, -0.08f);
     e = vec3(e.x, rotated({e.y, e.z}, 0.20f));
-    float d = ellipsoid(e, {0.075f, 0.215f, 0.135f});
-    d = carved(d, ellipsoid(e - vec3(0.070f, 0.035f, 0.015f), {0.055f, 0.150f, 0.085f}), 0.025f);
+    float d = ellipsoid(e, {0.070f, 0.185f, 0.125f});
+    d = carved(d, ellipsoid(e - vec3(0.070f, 0.035f, 0.015f), {0.055f, 0.130f, 0.080f}), 0.025f);
     d = carved(d, ellipsoid(e - vec3(0.050f, -0.030f, 0.045f), {0.060f, 0.055f, 0.050f}), 0.03f);
-    float lobe = ellipsoid(e - vec3(0.005f, -0.185f, 0.035f), {0.045f, 0.060f, 0.050f});
+    float lobe = ellipsoid(e - vec3(0.000f, -0.150f, 0.035f), {0.042f, 0.050f, 0.046f});
     return joined(d, lobe, 0.04f);
 }
 

@@ -1,5 +1,6 @@
 #include "assets/statue_head.h"
 
+#include <algorithm>
 #include <optional>
 
 #include "assets/distance_shapes.h"
@@ -21,7 +22,7 @@ constexpr float kFar = -1.2f;
 constexpr float kSafeShare = 0.58f;
 constexpr float kSurface = 4e-4f;
 constexpr float kGrazing = 4e-3f;
-constexpr int kLargestSteps = 160;
+constexpr int kLargestSteps = 600; // a ray along an edge needs them
 // For the gradient by differences: a third of a pixel at 512 pixels.
 constexpr float kDifference = 1.2e-3f;
 
@@ -44,6 +45,17 @@ struct Statue {
         vec3 h = inHead(p);
         float head = joined(faceDistance(h), hairDistance(h), 0.02f);
         return joined(head, bustDistance(p), 0.14f);
+    }
+
+    uint8_t part(const vec3& p) const
+    {
+        constexpr uint8_t kSkin = 0, kHair = 1, kCloak = 2;
+        vec3 h = inHead(p);
+        float face = faceDistance(h), hair = hairDistance(h), bust = bustDistance(p);
+        if (bust < std::min(face, hair)) {
+            return onCloak(p) ? kCloak : kSkin;
+        }
+        return hair < face ? kHair : kSkin;
     }
 
     // By differences at a tetrahedron's corners.
@@ -80,26 +92,62 @@ vec3 cameraFacing(const vec3& n)
     return glm::normalize(vec3(n.x, n.y, std::max(n.z, kLeastZ)));
 }
 
+// Samples over the picture's shorter side, about: tracing is dear.
+constexpr int kSamples = 768;
+constexpr int kMostPerSide = 4; // samples along a pixel's side
+
+struct View {
+    int width, height, perPixel;
+
+    // In the bust's frame, in front of sample (i, j) of a pixel.
+    vec2 planePoint(size_t pixel, int i, int j) const
+    {
+        const float halfSide = 0.5f * static_cast<float>(std::min(width, height));
+        const vec2 share = (vec2(i, j) + 0.5f) / static_cast<float>(perPixel);
+        const float x = static_cast<float>(pixel % width) + share.x - 0.5f * static_cast<float>(width);
+        const float y = 0.5f * static_cast<float>(height) - static_cast<float>(pixel / width) - share.y;
+        return vec2(x, y) * (kHalfHeight / halfSide) + vec2(0, kMiddleY);
+    }
+};
+
+// A pixel shows the bust where half of its samples do, and is the mean of those.
+void fillPixel(Target& target, size_t pixel, const View& view, const Statue& statue)
+{
+    vec3 normal(0), mean(0);
+    int seen = 0;
+    for (int s = 0; s < view.perPixel * view.perPixel; ++s) {
+        if (auto p = statue.hit(view.planePoint(pixel, s % view.perPixel, s / view.perPixel))) {
+            normal += cameraFacing(statue.normal(*p));
+            mean += *p;
+            ++seen;
+        }
+    }
+    if (seen == 0 || 2 * seen < view.perPixel * view.perPixel) {
+        return;
+    }
+    mean /= static_cast<float>(seen);
+    target.normals.normals[pixel] = glm::normalize(normal);
+    target.normals.confidence[pixel] = 1.0f;
+    target.height.values[pixel] = mean.z * 0.5f * static_cast<float>(std::min(view.width, view.height)) / kHalfHeight;
+    target.labels[pixel] = statue.part(mean);
+}
+
 } // namespace
 
-NormalMap statueHead(int width, int height, const StatueHeadOptions& options)
+Target statueHead(int width, int height, const StatueHeadOptions& options, int threads)
 {
     constexpr float kRadians = 0.0174532925f;
     const Statue statue{static_cast<float>(options.turnDegrees) * kRadians,
                         static_cast<float>(options.bowDegrees) * kRadians};
-    const float halfSide = 0.5f * static_cast<float>(std::min(width, height));
-    NormalMap map(width, height);
-    parallelFor(height, 4, options.threads, [&](size_t first, size_t last) {
+    const int side = std::min(width, height);
+    const View view{width, height, std::clamp((kSamples + side - 1) / side, 1, kMostPerSide)};
+    Target target(width, height, {"skin", "hair", "cloak"});
+    parallelFor(height, 4, threads, [&](size_t first, size_t last) {
         for (size_t pixel = first * width; pixel < last * width; ++pixel) {
-            float x = (static_cast<float>(pixel % width) + 0.5f - 0.5f * static_cast<float>(width)) / halfSide;
-            float y = (0.5f * static_cast<float>(height) - static_cast<float>(pixel / width) - 0.5f) / halfSide;
-            if (auto p = statue.hit(vec2(x, y) * kHalfHeight + vec2(0, kMiddleY))) {
-                map.normals[pixel] = cameraFacing(statue.normal(*p));
-                map.confidence[pixel] = 1.0f;
-            }
+            fillPixel(target, pixel, view, statue);
         }
     });
-    return map;
+    return target;
 }
 
 } // namespace nacre

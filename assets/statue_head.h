@@ -1,5 +1,5 @@
 #pragma once
-#include "engine/scene/normal_map.h"
+#include "assets/target.h"
 
 namespace nacre {
 
@@ -7,10 +7,9 @@ namespace nacre {
 struct StatueHeadOptions {
     double turnDegrees = 24; // of the head about the vertical, towards the picture's right
     double bowDegrees = 5;   // forward
-    int threads = 0;         // 0 = all
 };
 
-// Beside the bust the map has no data.
-NormalMap statueHead(int width, int height, const StatueHeadOptions& options = {});
+// Parts: skin, hair, cloak. Beside the bust there is no data.
+Target statueHead(int width, int height, const StatueHeadOptions& options = {}, int threads = 0);
 
 } // namespace nacre

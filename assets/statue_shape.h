@@ -19,5 +19,7 @@ float faceDistance(const glm::vec3& p);
 float hairDistance(const glm::vec3& p);
 // The bust's frame: the head's, upright and not turned.
 float bustDistance(const glm::vec3& p);
+// Whether a point of the bust's surface lies on the cloak.
+bool onCloak(const glm::vec3& p);
 
 } // namespace nacre

@@ -1,135 +1,131 @@
 #include "assets/woven_cloth.h"
 
-#include <algorithm>
-#include <cmath>
-#include <numbers>
-
-#include <glm/geometric.hpp>
-#include <glm/vec2.hpp>
-
-#include "assets/hash_random.h"
-#include "engine/scene/parallel_for.h"
+#include "assets/cloth_folds.h"
+#include "assets/relief.h"
+#include "assets/weave_pattern.h"
+#include "assets/yarn.h"
 
 namespace nacre {
 namespace {
 
 using glm::dvec2;
-using glm::dvec3;
-constexpr double kPi2 = 2.0 * std::numbers::pi;
 
-// Samples a pixel's side: fibres are but a few pixels wide.
-constexpr int kSubsamples = 2;
-// Share of a yarn's half width where its section's ellipse gives way to its tangent, so that the weave has no holes.
-constexpr double kSectionRim = 0.9;
+constexpr double kPi = std::numbers::pi;
+constexpr double kHalfWidth = 0.45; // of a yarn that nothing presses
+constexpr double kFlatness = 0.46;  // height of a yarn's section over its width
+constexpr double kCrimp = 0.16;     // a yarn's middle rises and falls by so much at crossings
+constexpr double kBulge = 0.09;     // a long float's middle rises further by so much
+constexpr double kSpread = 0.30;    // a long float is wider in its middle by this share
+constexpr double kPliesDepth = 0.035;
 
-// Smooth noise of one variable in [-1, 1], a new knot at every integer.
-double waver(double t, uint64_t seed)
-{
-    double cell = std::floor(t);
-    double s = t - cell;
-    auto knot = [&](double i) {
-        return 2.0 * unitFromHash(hashOf(seed, static_cast<uint64_t>(static_cast<int64_t>(i)))) - 1.0;
-    };
-    double blend = s * s * (3.0 - 2.0 * s);
-    return knot(cell) * (1.0 - blend) + knot(cell + 1.0) * blend;
-}
-
-// One yarn in its own frame: `along` it and `across` from the middle of its place, one yarn spacing to the unit.
-struct Yarn {
-    int index = 0;
-    uint64_t seed = 0; // tells warp from weft
-    double side = 1;   // +1: on top where along + index is even, -1: where it is odd
+// A yarn's place and shape where it crosses the others: along it, crossing k lies at k + 1/2.
+struct YarnState {
+    double middle; // height
+    double spread; // share
 };
 
-// The upper half of the unit circle, carried on as a tangent beyond its rim.
-double sectionHeight(double x)
+// Between crossings on different sides a cosine; over a float the yarn relaxes, rises and flattens.
+YarnState stateOf(const WeavePattern::Float& before, const WeavePattern::Float& after, double share)
 {
-    const double rimHeight = std::sqrt(1.0 - kSectionRim * kSectionRim);
-    const double beyond = std::abs(x) - kSectionRim;
-    return beyond <= 0.0 ? std::sqrt(1.0 - x * x) : rimHeight - beyond * kSectionRim / rimHeight;
+    auto side = [](const WeavePattern::Float& f) { return f.above ? 1.0 : -1.0; };
+    const double blend = 0.5 - 0.5 * std::cos(kPi * share);
+    // The float that this point belongs to, and how much of it lies behind, from halfway between crossings.
+    const bool first = share < 0.5;
+    const WeavePattern::Float& own = first ? before : after;
+    const double behind = (first ? share : share - 1.0) + 0.5 - own.first;
+    const double arch = std::sin(kPi * behind / own.length);
+    const double relaxed = own.above ? arch * arch : 0.0;
+    // Even a yarn that shows at one crossing alone swells there, where nothing presses it.
+    const double rise = relaxed * (1.0 - 1.0 / own.length), swell = relaxed * (1.0 - 0.55 / own.length);
+    return {kCrimp * (side(before) * (1.0 - blend) + side(after) * blend) + kBulge * rise, kSpread * swell};
 }
 
-// Height of the yarn's upper surface.
-double yarnHeight(const WovenClothOptions& o, const Yarn& yarn, double along, double across)
-{
-    const uint64_t seed = hashOf(yarn.seed, static_cast<uint64_t>(static_cast<int64_t>(yarn.index)));
-    const double halfWidth = 0.5 * o.cover * (1.0 + o.wander * waver(0.7 * along, seed));
-    const double x = (across - o.wander * waver(0.45 * along, hashOf(seed))) / halfWidth;
-    const double section = o.flatness * halfWidth * sectionHeight(x);
-    const double parity = (yarn.index % 2 == 0 ? 1.0 : -1.0) * yarn.side;
-    const double middle = 0.5 * o.crimp * o.flatness * parity * std::cos(std::numbers::pi * along);
-    // Two strands' grooves wind about the yarn: the angle around it and the way along it turn together.
-    const double twist = 2.6 * along + 0.7 * x + 0.25 * waver(1.3 * along, seed + 1);
-    const double groove = 0.75 * std::sin(kPi2 * twist) + 0.25 * std::sin(kPi2 * (2.7 * twist + 0.3 * x));
-    return middle + section + o.fibreDepth * groove * std::max(0.0, 1.0 - x * x);
-}
-
-struct Weave {
-    const WovenClothOptions& options;
-
-    double warp(int i, const dvec2& p) const { return yarnHeight(options, {i, 11, 1.0}, p.y - 0.5, p.x - (i + 0.5)); }
-    double weft(int j, const dvec2& p) const { return yarnHeight(options, {j, 23, -1.0}, p.x - 0.5, p.y - (j + 0.5)); }
-
-    // Gradient of the yarn that lies on top at p, from that yarn alone: differences across a rim mean nothing.
-    dvec2 slope(const dvec2& p) const
+class Weave {
+public:
+    Weave(const WovenClothOptions& options, double spacing)
+        : options_(options), pattern_(WeavePattern::named(options.weave)), spacing_(spacing)
     {
-        int i = static_cast<int>(std::floor(p.x));
-        int j = static_cast<int>(std::floor(p.y));
-        bool warpOnTop = warp(i, p) >= weft(j, p);
-        auto height = [&](const dvec2& q) { return warpOnTop ? warp(i, q) : weft(j, q); };
-        constexpr double kStep = 1e-4;
-        dvec2 dx(kStep, 0), dy(0, kStep);
-        return dvec2(height(p + dx) - height(p - dx), height(p + dy) - height(p - dy)) / (2.0 * kStep);
     }
-};
 
-// Slope of a few long folds that cross the cloth; p in [-1, 1] over the shorter side.
-dvec2 drapeSlope(const dvec2& p)
-{
-    struct Fold {
-        dvec2 wave; // direction times angular frequency
-        double phase;
-        double share;
+    // p in yarn spacings.
+    ReliefPoint at(const dvec2& p) const
+    {
+        Found best;
+        findHighest(p.x, p.y, kWarp, best);
+        findHighest(p.y, p.x, kWeft, best);
+        // Grooves are too shallow to change which yarn is seen.
+        const Twist twist{options_.curl, kPliesDepth, spacing_ / best.halfWidth, best.seed + 5};
+        return {best.height + kHalfWidth * twist.groove(best.along / kHalfWidth, best.x), best.direction};
+    }
+
+private:
+    static constexpr uint8_t kWarp = 0, kWeft = 1;
+
+    // The yarn that is seen.
+    struct Found {
+        double height = -1e9, halfWidth = 0, along = 0, x = 0;
+        uint64_t seed = 0;
+        uint8_t direction = kWarp;
     };
-    constexpr Fold kFolds[] = {{{2.6, 1.1}, 0.4, 0.5}, {{1.4, -2.3}, 1.9, 0.3}, {{5.2, 0.9}, 2.6, 0.2}};
-    dvec2 slope(0);
-    for (const Fold& fold : kFolds) {
-        double bend = 0.35 * std::sin(1.7 * p.y + fold.phase);
-        slope += glm::normalize(fold.wave) * fold.share * std::cos(glm::dot(fold.wave, p) + fold.phase + bend);
-    }
-    return slope;
-}
 
-// Rims stand almost upright; a slope of 3 (72 degrees) is as steep as cloth shows from the front.
-dvec2 limited(const dvec2& slope)
-{
-    constexpr double kSteepest = 3.0;
-    double steepness = glm::length(slope);
-    return steepness > kSteepest ? slope * (kSteepest / steepness) : slope;
-}
+    // Of the two yarns nearest to `across`; the third is never on top.
+    void findHighest(double across, double along, uint8_t direction, Found& best) const
+    {
+        const int nearest = static_cast<int>(std::floor(across));
+        const int next = across - nearest < 0.5 ? nearest - 1 : nearest + 1;
+        considerYarn(nearest, across, along, direction, best);
+        considerYarn(next, across, along, direction, best);
+    }
+
+    YarnState state(int yarn, double along, uint8_t direction) const
+    {
+        const double place = along - 0.5;
+        const int crossing = static_cast<int>(std::floor(place));
+        auto run = [&](int k) -> const WeavePattern::Float& {
+            return direction == kWarp ? pattern_.warpFloat(yarn, k) : pattern_.weftFloat(yarn, k);
+        };
+        return stateOf(run(crossing), run(crossing + 1), place - crossing);
+    }
+
+    void considerYarn(int yarn, double across, double along, uint8_t direction, Found& best) const
+    {
+        const uint64_t seed = hashOf(options_.seed * 2 + direction, static_cast<uint64_t>(static_cast<int64_t>(yarn)));
+        const double w = options_.wander;
+        const double stray = 0.05 * knotValue(1, seed) + 0.06 * smoothNoise(0.37 * along, seed + 2);
+        const double fromMiddle = across - (yarn + 0.5) - w * stray;
+        constexpr double kReach = 0.85; // beyond, a neighbour always lies higher
+        if (std::abs(fromMiddle) > kReach) {
+            return;
+        }
+        const YarnState s = state(yarn, along + 0.06 * w * smoothNoise(0.3 * along, seed + 4), direction);
+        const double swell = 0.06 * knotValue(0, seed) + 0.08 * smoothNoise(0.45 * along, seed + 1);
+        const double halfWidth = kHalfWidth * (1.0 + s.spread) * (1.0 + w * swell);
+        // What a yarn gains in width it loses in height.
+        const double thickness = kFlatness * kHalfWidth / (1.0 + s.spread);
+        const double lift = w * (0.025 * smoothNoise(0.5 * along, seed + 3) + 0.02 * knotValue(2, seed));
+        const double height = s.middle + lift + thickness * yarnSection(fromMiddle / halfWidth);
+        if (height > best.height) {
+            best = {height, halfWidth, along, fromMiddle / halfWidth, seed, direction};
+        }
+    }
+
+    const WovenClothOptions& options_;
+    WeavePattern pattern_;
+    double spacing_;
+};
 
 } // namespace
 
-NormalMap wovenCloth(int width, int height, const WovenClothOptions& options)
+Target wovenCloth(int width, int height, const WovenClothOptions& options, int threads)
 {
-    NormalMap map(width, height);
-    const Weave weave{options};
-    const double side = std::min(width, height);
-    parallelFor(height, 4, options.threads, [&](size_t first, size_t last) {
-        for (size_t pixel = first * width; pixel < last * width; ++pixel) {
-            dvec3 sum(0);
-            for (int s = 0; s < kSubsamples * kSubsamples; ++s) {
-                double x = pixel % width + (s % kSubsamples + 0.5) / kSubsamples;
-                double y = height - (pixel / width + (s / kSubsamples + 0.5) / kSubsamples); // up
-                dvec2 yarns = dvec2(x, y) * (options.yarns / side);
-                dvec2 drape = options.drapeSlope * drapeSlope(dvec2(2 * x - width, 2 * y - height) / side);
-                sum += glm::normalize(dvec3(-limited(weave.slope(yarns)) - drape, 1.0));
-            }
-            map.normals[pixel] = glm::vec3(glm::normalize(sum));
-            map.confidence[pixel] = 1.0f;
-        }
-    });
-    return map;
+    const double yarnsPerUnit = 0.5 * options.threads;
+    const Weave weave(options, reliefSpacing(width, height) * yarnsPerUnit);
+    const Relief relief = [&](const dvec2& p) {
+        ReliefPoint point = weave.at(p * yarnsPerUnit);
+        point.height = point.height / yarnsPerUnit + options.drape * foldHeight(p, options.seed + 77);
+        return point;
+    };
+    return targetFromRelief(width, height, {"warp", "weft"}, relief, threads);
 }
 
 } // namespace nacre

@@ -1,20 +1,21 @@
 #pragma once
-#include "engine/scene/normal_map.h"
+#include <string>
+
+#include "assets/target.h"
 
 namespace nacre {
 
-// A plain weave seen from the front: over and under in turn, twisted yarns of elliptical section, a little drape.
+// A weave seen from the front. Lengths are in yarn spacings where nothing else is said.
 struct WovenClothOptions {
-    int yarns = 24;            // across the picture's shorter side, in either direction
-    double cover = 0.86;       // a yarn's width, of the spacing
-    double flatness = 0.72;    // height of a yarn's section over its width
-    double crimp = 0.55;       // rise and fall of a yarn's middle, of the section's height
-    double fibreDepth = 0.022; // of the twist's grooves, of the yarn's width
-    double wander = 0.08;      // how far yarns stray and swell, of their width
-    double drapeSlope = 0.55;  // of the folds, rise over run
-    int threads = 0;           // 0 = all
+    std::string weave = "plain"; // weaveNames()
+    int threads = 32;            // yarns across the picture's shorter side, in either direction
+    double curl = 0.5;           // tangent of the yarns' twist angle, 0 = fibres lie straight
+    double drape = 0.35;         // slope of the long folds, rise over run; 0 = flat
+    double wander = 1;           // irregularity of yarns: how far they stray and swell; 0 = a machine's drawing
+    uint64_t seed = 1;
 };
 
-NormalMap wovenCloth(int width, int height, const WovenClothOptions& options = {});
+// Parts: warp (upright), weft.
+Target wovenCloth(int width, int height, const WovenClothOptions& options = {}, int threads = 0);
 
 } // namespace nacre
