@@ -24,12 +24,13 @@ namespace nacre {
 namespace {
 
 struct BenchArguments {
-    std::vector<std::string> sizes = {"960x540", "1920x1080", "3840x2160"};
+    std::vector<std::string> sizes = {"1280x720", "1920x1080", "3840x2160"};
     std::vector<int> lights = {1, 4, 16, 256};
     int repeats = 15;
     int mostDirectLights = 16; // a direct frame under more takes seconds
     float alpha = 0.3f;
-    bool bake = false; // instead of frames
+    bool shadows = false; // of direct frames
+    bool bake = false;    // instead of frames
     std::string device;
     std::filesystem::path json;
 };
@@ -79,6 +80,18 @@ NormalMap wavyNormals(int width, int height)
         }
     }
     return map;
+}
+
+// Waves with the slopes of wavyNormals, nearly: what shadows cost does not depend on where they fall.
+Image wavyHeight(int width, int height)
+{
+    Image waves(width, height, 1);
+    for (int y = 0; y < height; ++y) {
+        for (int x = 0; x < width; ++x) {
+            waves.at(x, y) = 62 * std::cos(0.021f * x + 2 * std::sin(0.003f * y)) - 76 * std::cos(0.017f * y);
+        }
+    }
+    return waves;
 }
 
 // As plain as can be: one material, no albedo factors; or with everything: four materials, factors per pixel.
@@ -180,19 +193,45 @@ private:
                 });
             }
         }
+        if (arguments_.shadows) {
+            measureShadows(renderer, surface, prefix, floor);
+        }
+    }
+
+    void measureShadows(Renderer& renderer, Surface surface, const std::string& prefix,
+                        const std::function<void()>& floor)
+    {
+        const NormalMap& normals = surface.normals;
+        const Image height = wavyHeight(normals.width, normals.height);
+        const double before = static_cast<double>(renderer.deviceBytes());
+        record(prefix + ".horizonBakeMs", "horizons, baked once", {},
+               [&] { surface.horizon = horizonMap(normals, height); });
+        const std::vector<BallSize> sizes = renderer.ballSizes();
+        renderer.setSurface(std::move(surface), sizes);
+        for (const int lights : arguments_.lights) {
+            if (lights <= arguments_.mostDirectLights) {
+                renderer.setLights(benchLights(lights, 0));
+                record(fmt::format("{}.{}lights.shadowedDirectFrameMs", prefix, lights),
+                       fmt::format("direct frame, {} lights, shadows", lights), floor, [&] {
+                           renderer.forgetPicture();
+                           renderer.drawPicture();
+                       });
+            }
+        }
+        results_[prefix + ".horizonDeviceMiB"] = (static_cast<double>(renderer.deviceBytes()) - before) / 1048576.0;
     }
 
     void record(const std::string& name, const std::string& words, const std::function<void()>& floor,
                 const std::function<void()>& call)
     {
-        const bool isSlow = name.ends_with("directFrameMs");
+        const bool isSlow = name.ends_with("irectFrameMs") || name.ends_with("horizonBakeMs");
         const int repeats = isSlow ? std::max(1, arguments_.repeats / 5) : arguments_.repeats;
         const Measured found = measured(repeats, call, floor);
         results_[name] = found.ms;
         if (floor) {
             results_[name.substr(0, name.size() - 2) + "PerFloor"] = found.perFloor;
         }
-        fmt::print("  {:<32}{:9.2f}{}\n", words, found.ms, floor ? fmt::format("  ({:.2f})", found.perFloor) : "");
+        fmt::print("  {:<36}{:9.2f}{}\n", words, found.ms, floor ? fmt::format("  ({:.2f})", found.perFloor) : "");
     }
 
     const BenchArguments& arguments_;
@@ -236,7 +275,7 @@ void addBenchCommand(CLI::App& app)
 {
     auto arguments = std::make_shared<BenchArguments>();
     CLI::App* command = app.add_subcommand("bench", "What frames cost on this machine, against their floors");
-    command->add_option("--size", arguments->sizes, "WxH, repeatable (default: 960x540 1920x1080 3840x2160)");
+    command->add_option("--size", arguments->sizes, "WxH, repeatable (default: 1280x720 1920x1080 3840x2160)");
     command->add_option("--lights", arguments->lights, "Numbers of lights (default: 1 4 16 256)");
     command->add_option("--repeats", arguments->repeats, "Of which the median is told; slow ones a fifth")
         ->capture_default_str();
@@ -245,6 +284,7 @@ void addBenchCommand(CLI::App& app)
     command->add_option("--alpha", arguments->alpha, "GGX roughness of the material")
         ->check(CLI::Range(0.001f, 1.0f))
         ->capture_default_str();
+    command->add_flag("--shadows", arguments->shadows, "Direct frames with cast shadows as well");
     command->add_flag("--bake", arguments->bake,
                       "Instead of frames: a table from a million samples, against asking for their neighbours alone");
     command->add_option("--device", arguments->device, "Vulkan device: number or part of its name, see nacre info");

@@ -21,8 +21,6 @@ namespace {
 struct BrdfArguments {
     std::string source;
     std::string against;
-    int index = 0;
-    int againstIndex = 0;
     std::filesystem::path fits;
     std::filesystem::path pictures;
     std::vector<std::filesystem::path> exports;
@@ -37,7 +35,7 @@ constexpr const char* kExample =
     "  nacre brdf horse.nacre -o horse-brdf\n"
     "  nacre brdf alum-bronze.binary --against merl-abc:alum-bronze --fits FOLDER\n"
     "  nacre brdf paper_white_rgb.bsdf --export paper.binary --export paper.ktx2\n"
-    "Materials: NAME.nacre  FILE.binary (MERL)  FILE.bsdf (RGL, isotropic RGB)  FILE.exr (our table)\n"
+    "Materials: NAME.nacre[#MATERIAL]  FILE.binary (MERL)  FILE.bsdf (RGL, isotropic RGB)  FILE.exr (our table)\n"
     "  FILE.brdf (Cornell's scattered measurements)  lambert:R,G,B  ggx:diffuse=R,G,B;specular=R,G,B;alpha=A\n"
     "  merl-abc:NAME  merl-sgd:NAME";
 
@@ -96,10 +94,10 @@ void runBrdf(const BrdfArguments& arguments)
         return runScattered(arguments);
     }
     const std::filesystem::path fits = fitsFolderFrom(arguments.fits);
-    BrdfReport report{loadBrdfSource(arguments.source, arguments.index, fits), {}, {}, {}};
+    BrdfReport report{loadBrdfSource(arguments.source, fits), {}, {}, {}};
     const BrdfFunction f = functionOf(report.source.model);
     if (!arguments.against.empty()) {
-        const BrdfSource other = loadBrdfSource(arguments.against, arguments.againstIndex, fits);
+        const BrdfSource other = loadBrdfSource(arguments.against, fits);
         report.against = other.name;
         report.comparison = compareBrdfs(f, functionOf(other.model));
         if (report.comparison->configurations == 0) {
@@ -129,10 +127,7 @@ void addBrdfCommand(CLI::App& app)
     auto arguments = std::make_shared<BrdfArguments>();
     CLI::App* command = app.add_subcommand("brdf", "What a measured material or a model holds: audit, pictures, files");
     command->add_option("MATERIAL", arguments->source, "File, surface or model, see below")->required();
-    command->add_option("--index", arguments->index, "Material of a NAME.nacre, from 0")->capture_default_str();
     command->add_option("--against", arguments->against, "Compare to this material");
-    command->add_option("--against-index", arguments->againstIndex, "Material of --against's NAME.nacre")
-        ->capture_default_str();
     command->add_option("--fits", arguments->fits,
                         "Folder of merl_abc_params.csv and merl_sgd_params.csv "
                         "[environment variable NACRE_FITS_DIR]");

@@ -8,13 +8,12 @@
 #include <glm/trigonometric.hpp>
 
 #include "app/contact_sheet.h"
+#include "app/material_ball.h"
 #include "engine/scene/brdf_comparison.h"
 #include "engine/scene/brdf_tabulation.h"
 #include "engine/scene/measures.h"
-#include "engine/scene/normal_map.h"
 #include "engine/scene/parallel_for.h"
 #include "engine/scene/whole_file.h"
-#include "shared/shading.h"
 
 namespace nacre {
 namespace {
@@ -94,19 +93,8 @@ Image ballRadiance(const BrdfModel& model, float lightDegrees, int threads)
 {
     const float angle = glm::radians(lightDegrees);
     const glm::vec3 upperLeft = glm::normalize(glm::vec3(-1, 0.6f, 0));
-    const glm::vec3 l = std::sin(angle) * upperLeft + std::cos(angle) * kAxis;
-    const NormalMap sphere = sphereNormalMap(kBallSize);
-    Image picture(kBallSize, kBallSize, 3);
-    parallelFor(picture.pixelCount(), 1024, threads, [&](size_t first, size_t last) {
-        for (size_t i = first; i < last; ++i) {
-            const glm::vec3 n = sphere.normals[i];
-            if (sphere.confidence[i] > 0 && glm::dot(n, l) > 0) {
-                const glm::vec3 radiance = radianceFromBrdf(evaluate(model, n, l, kAxis), glm::vec3(1), glm::dot(n, l));
-                std::copy_n(&radiance.x, 3, &picture.values[3 * i]);
-            }
-        }
-    });
-    return picture;
+    const Light light{std::sin(angle) * upperLeft + std::cos(angle) * kAxis};
+    return materialBall(model, {&light, 1}, kBallSize, threads);
 }
 
 Image slicesSheet(const BrdfModel& model, int threads)

@@ -3,13 +3,11 @@
 #include <fmt/format.h>
 
 #include "engine/scene/brdf_tabulation.h"
-#include "engine/scene/error.h"
 #include "engine/scene/material_specification.h"
 #include "engine/scene/rgl_brdf.h"
-#include "engine/scene/surface.h"
+#include "engine/scene/surface_material.h"
 
 namespace nacre {
-namespace {
 
 std::string kindOf(const std::string& specification, const BrdfModel& model)
 {
@@ -23,26 +21,12 @@ std::string kindOf(const std::string& specification, const BrdfModel& model)
     return isMerl ? "MERL file, folded to a table" : "table";
 }
 
-BrdfSource materialOfSurface(const std::string& folder, int index)
+BrdfSource loadBrdfSource(const std::string& specification, const std::filesystem::path& fitsFolder)
 {
-    Surface surface = loadSurface(folder);
-    if (index < 0 || static_cast<size_t>(index) >= surface.materials.size()) {
-        throw Error(folder, fmt::format("holds no material {}", index),
-                    surface.materials.empty() ? "a surface with a material"
-                                              : fmt::format("--index 0 to {}", surface.materials.size() - 1),
-                    Error::kUsage);
-    }
-    Material& material = surface.materials[index];
-    return {fmt::format("{} of {}", material.name, folder), "table of a surface",
-            std::make_shared<const BrdfTable>(std::move(material.table)), surface.scale == RadianceScale::relative};
-}
-
-} // namespace
-
-BrdfSource loadBrdfSource(const std::string& specification, int index, const std::filesystem::path& fitsFolder)
-{
-    if (std::filesystem::is_directory(specification)) {
-        return materialOfSurface(specification, index);
+    if (auto found = loadSurfaceMaterial(specification)) {
+        return {fmt::format("{} of {}", found->material.name, specification.substr(0, specification.rfind('#'))),
+                "table of a surface", std::make_shared<const BrdfTable>(std::move(found->material.table)),
+                found->scale == RadianceScale::relative};
     }
     NamedBrdf named = parseMaterial(specification, fitsFolder);
     return {named.name, kindOf(specification, named.model), std::move(named.model)};

@@ -14,8 +14,11 @@ struct BrdfSource {
     bool relative = false; // f is 1/sr only up to one factor
 };
 
-// A specification as parseMaterial takes it, or NAME.nacre with the material `index` of that surface.
-BrdfSource loadBrdfSource(const std::string& specification, int index, const std::filesystem::path& fitsFolder);
+// A specification as parseMaterial takes it.
+BrdfSource loadBrdfSource(const std::string& specification, const std::filesystem::path& fitsFolder);
+
+// "RGL database, ...", "MERL file, folded to a table", "table", "model".
+std::string kindOf(const std::string& specification, const BrdfModel& model);
 
 // The table that the source is, or its model tabulated over the whole domain.
 BrdfTable tableOfSource(const BrdfSource& source, int threads);

@@ -6,6 +6,10 @@ namespace nacre {
 // Each adds one subcommand, whose callback runs it; errors are thrown to main.
 void addInfoCommand(CLI::App& app);
 void addRenderCommand(CLI::App& app);
+void addViewCommand(CLI::App& app);
+void addTargetCommand(CLI::App& app);
+void addMaterialsCommand(CLI::App& app);
+void addTransferCommand(CLI::App& app);
 void addSynthCommand(CLI::App& app);
 void addAcquireCommand(CLI::App& app);
 void addNormalsCommand(CLI::App& app);

@@ -45,6 +45,14 @@ void printSurface(const std::filesystem::path& folder)
         const auto pixels = std::count(surface.labels.begin(), surface.labels.end(), i);
         fmt::print("material {}   {}: {} pixels, table {}\n", i, material.name, pixels, describe(material.table));
     }
+    for (size_t i = 0; i < surface.parts.size(); ++i) {
+        const auto pixels = std::count(surface.labels.begin(), surface.labels.end(), i);
+        fmt::print("part {:<7} {}: {} pixels\n", i, surface.parts[i], pixels);
+    }
+    if (!surface.height.values.empty()) {
+        const auto [lowest, highest] = std::minmax_element(surface.height.values.begin(), surface.height.values.end());
+        fmt::print("height       {:.1f} to {:.1f} pixels\n", *lowest, *highest);
+    }
     if (surface.lights.empty()) {
         fmt::print("lights       none\n");
         return;

@@ -41,6 +41,10 @@ int runCommandLine(int argc, char** argv)
     nacre::addNormalsCommand(app);
     nacre::addCalibrateCommand(app);
     nacre::addRenderCommand(app);
+    nacre::addViewCommand(app);
+    nacre::addTargetCommand(app);
+    nacre::addMaterialsCommand(app);
+    nacre::addTransferCommand(app);
     nacre::addSynthCommand(app);
     nacre::addInfoCommand(app);
     nacre::addBrdfCommand(app);

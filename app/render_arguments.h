@@ -1,29 +1,14 @@
 #pragma once
 #include <filesystem>
-#include <optional>
-#include <string>
-#include <vector>
+
+#include "engine/scene/scene_file.h"
 
 namespace nacre {
 
 // What nacre render takes, as text: from the command line, and where that is silent from a state file.
-struct RenderArguments {
-    std::filesystem::path surface;
-    std::string material; // in place of a surface's
+struct RenderArguments : SceneFile {
     std::filesystem::path fits;
-    std::filesystem::path onto;
-    std::string normalY;
-    std::string size;
-    std::vector<std::string> lights;
-    std::filesystem::path environment;
-    std::optional<int> environmentLights;
-    std::optional<float> environmentTurn; // degrees
-    std::string view;
-    std::string path;
-    std::optional<float> exposure; // stops
-    std::string tone;
-    std::optional<int> frames;
-    std::string motion;
+    std::string rig; // lights beside those of --light and --environment
     std::string device;
     std::filesystem::path state;
     std::filesystem::path output;
@@ -31,8 +16,7 @@ struct RenderArguments {
     bool quiet = false;
 };
 
-// Fills what is empty from arguments.state, where that is given: keys are the options' names (docs/formats.md), paths
-// are relative to the file.
+// Fills what is empty from arguments.state, where that is given.
 void completeFromState(RenderArguments& arguments);
 
 } // namespace nacre

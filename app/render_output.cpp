@@ -5,8 +5,10 @@
 
 #include <fmt/format.h>
 
+#include "app/destinations.h"
+#include "engine/scene/animation_file.h"
 #include "engine/scene/error.h"
-#include "engine/scene/whole_file.h"
+#include "engine/scene/scene_names.h"
 
 namespace nacre {
 namespace fs = std::filesystem;
@@ -14,6 +16,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr int kMostFrames = 10000;
+constexpr const char* kAnimation = ".webp";
 constexpr int kExposureFrames = 8; // of a sequence, to find one exposure for all
 
 Error notKnown(const char* option, const std::string& value, const char* expected)
@@ -43,17 +46,10 @@ LightMotion motionFromArgument(const std::string& text, int frames)
     return text == "none" ? LightMotion::none : text == "sweep" ? LightMotion::sweep : LightMotion::turntable;
 }
 
-int toneFromArgument(const std::string& text)
-{
-    if (!text.empty() && text != "srgb" && text != "filmic") {
-        throw notKnown("--tone", text, "srgb or filmic");
-    }
-    return text == "filmic" ? kToneFilmic : kToneSrgb;
-}
-
+// One for all frames of an animation.
 fs::path fileOfFrame(const fs::path& output, int frame, int frames)
 {
-    if (frames == 1) {
+    if (frames == 1 || output.extension() == kAnimation) {
         return output;
     }
     return output.parent_path() /
@@ -72,31 +68,15 @@ float commonExposure(Renderer& renderer, const RenderOutput& output, const std::
     float stops = 0;
     for (int i = 0; i < probes; ++i) {
         renderer.setLights(movedLights(lights, output.motion, i * output.frames / probes, output.frames));
-        const float wanted = automaticExposure(renderer.radiance());
+        const float wanted = renderer.automaticExposure();
         stops = i == 0 ? wanted : std::min(stops, wanted);
     }
     return stops;
 }
 
-} // namespace
-
-RenderOutput checkedOutput(const RenderArguments& arguments)
+// That EXR is not asked for what only pictures for the eye have.
+void checkLook(const RenderArguments& arguments, const RenderOutput& output)
 {
-    const std::string extension = arguments.output.extension().string();
-    if (extension != ".png" && extension != ".exr") {
-        throw Error(arguments.output, "is no picture that render writes", ".png (8-bit sRGB) or .exr (linear radiance)",
-                    Error::kUsage);
-    }
-    RenderOutput output;
-    output.frames = arguments.frames.value_or(1);
-    if (output.frames < 1 || output.frames > kMostFrames) {
-        throw Error("", fmt::format("--frames {} is out of range", output.frames), fmt::format("1 to {}", kMostFrames),
-                    Error::kUsage);
-    }
-    output.motion = motionFromArgument(arguments.motion, output.frames);
-    output.path = pathFromArgument(arguments.path);
-    output.toneCurve = toneFromArgument(arguments.tone);
-    output.isRadiance = extension == ".exr";
     if (output.isRadiance && (arguments.exposure || !arguments.tone.empty())) {
         throw Error(arguments.output, "knows no exposure and no tone curve, EXR holds linear radiance",
                     "--exposure and --tone with a .png only", Error::kUsage);
@@ -108,31 +88,68 @@ RenderOutput checkedOutput(const RenderArguments& arguments)
     if (arguments.exposure && !std::isfinite(*arguments.exposure)) {
         throw Error("", "--exposure is not finite", "a number of stops", Error::kUsage);
     }
+    if (output.isRadiance && output.show != Show::picture) {
+        throw Error(arguments.output, "is radiance, which has no false colours", "--show with .png or .webp",
+                    Error::kUsage);
+    }
+}
+
+} // namespace
+
+RenderOutput checkedOutput(const RenderArguments& arguments)
+{
+    const std::string extension = arguments.output.extension().string();
+    if (extension != ".png" && extension != ".exr" && extension != kAnimation) {
+        throw Error(arguments.output, "is no picture that render writes",
+                    ".png (8-bit sRGB) or .exr (linear radiance) or .webp (animated)", Error::kUsage);
+    }
+    RenderOutput output;
+    output.frames = arguments.frames.value_or(1);
+    if (output.frames < 1 || output.frames > kMostFrames) {
+        throw Error("", fmt::format("--frames {} is out of range", output.frames), fmt::format("1 to {}", kMostFrames),
+                    Error::kUsage);
+    }
+    output.motion = motionFromArgument(arguments.motion, output.frames);
+    output.path = pathFromArgument(arguments.path);
+    output.toneCurve = toneCurveFromName(arguments.tone);
+    output.show = showFromName(arguments.show);
+    output.isRadiance = extension == ".exr";
+    output.isAnimation = extension == kAnimation;
+    checkLook(arguments, output);
     for (int frame = 0; frame < output.frames; ++frame) {
-        WholeOutput(fileOfFrame(arguments.output, frame, output.frames), arguments.force);
+        requireDestination(fileOfFrame(arguments.output, frame, output.frames), arguments.force);
     }
     return output;
 }
 
 RenderedOutput renderFrames(Renderer& renderer, const RenderArguments& arguments, const RenderOutput& output,
-                            const std::vector<Light>& lights)
+                            const Scene& scene)
 {
     const std::vector<ImageAttribute> attributes = attributesOf(renderer.context().info());
-    RenderedOutput rendered;
+    std::optional<AnimationFile> animation;
+    if (output.isAnimation) {
+        animation.emplace(arguments.output, scene.surface.normals.width, scene.surface.normals.height);
+    }
+    RenderedOutput rendered{.first = fileOfFrame(arguments.output, 0, output.frames)};
     renderer.setPath(output.path);
-    if (!output.isRadiance) {
-        rendered.stops = arguments.exposure ? *arguments.exposure : commonExposure(renderer, output, lights);
+    renderer.setShow(output.show);
+    if (output.isExposed()) {
+        rendered.stops = arguments.exposure ? *arguments.exposure : commonExposure(renderer, output, scene.lights);
         renderer.setDisplay({.exposureStops = rendered.stops, .toneCurve = output.toneCurve});
     }
     for (int frame = 0; frame < output.frames; ++frame) {
-        renderer.setLights(movedLights(lights, output.motion, frame, output.frames));
+        renderer.setLights(movedLights(scene.lights, output.motion, frame, output.frames));
         const fs::path file = fileOfFrame(arguments.output, frame, output.frames);
-        rendered.first = frame == 0 ? file : rendered.first;
-        if (output.isRadiance) {
+        if (animation) {
+            animation->add(renderer.picture());
+        } else if (output.isRadiance) {
             saveImage(file, renderer.radiance(), PixelType::float32, attributes);
         } else {
             saveImage(file, renderer.picture(), PixelType::uint8, attributes);
         }
+    }
+    if (animation) {
+        animation->write();
     }
     return rendered;
 }

@@ -1,25 +1,23 @@
 #include "app/render_scene.h"
 
-#include <algorithm>
-#include <cmath>
-
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
+#include "app/cast_shadows.h"
 #include "app/light_argument.h"
+#include "app/material_argument.h"
+#include "app/rig_argument.h"
 #include "app/size_argument.h"
 #include "engine/gpu/texture.h"
-#include "engine/scene/brdf_tabulation.h"
+#include "engine/scene/coverage.h"
 #include "engine/scene/environment.h"
 #include "engine/scene/error.h"
-#include "engine/scene/material_specification.h"
 
 namespace nacre {
 
 namespace {
 
-constexpr int kEnvironmentLights = 256;
 constexpr int kMostEnvironmentLights = 100000;
 
 NormalY normalYOf(const RenderArguments& arguments)
@@ -34,10 +32,8 @@ NormalY normalYOf(const RenderArguments& arguments)
 // A named material as a surface without pixels: --onto gives the normals.
 Surface surfaceOfMaterial(const RenderArguments& arguments)
 {
-    const NamedBrdf named = parseMaterial(arguments.material, fitsFolderFrom(arguments.fits));
-    const BrdfTable* table = tableOf(named.model);
     Surface surface;
-    surface.materials.push_back({named.name, table ? *table : tabulatedBrdf(named.model), {}});
+    surface.materials.push_back(materialFromArgument(arguments.material, arguments.fits));
     return surface;
 }
 
@@ -58,10 +54,17 @@ Surface surfaceToDraw(const RenderArguments& arguments, Surface measured, const 
         if (measured.materials.empty()) {
             throw Error(arguments.surface, "holds no material", "one to put onto other normals");
         }
-        const NormalMap normals = std::filesystem::is_directory(arguments.onto)
-                                      ? loadSurface(arguments.onto).normals
-                                      : loadNormalMap(arguments.onto, normalYOf(arguments));
-        measured = transferredSurface(normals, measured.materials.front());
+        const Material& material = measured.materials.front();
+        measured = std::filesystem::is_directory(arguments.onto)
+                       ? transferredSurface(loadSurface(arguments.onto), material)
+                       : transferredSurface(loadNormalMap(arguments.onto, normalYOf(arguments)), material);
+    } else if (measured.materials.empty()) {
+        throw Error(
+            arguments.surface, "is a target without a material",
+            fmt::format("--material SPEC --onto {}, or another surface with --onto", arguments.surface.string()));
+    }
+    if (arguments.shadows.value_or(false)) { // before pixels are repeated, which would make stairs of the height
+        castShadows(measured, arguments.onto.empty() ? arguments.surface : arguments.onto);
     }
     if (!arguments.size.empty()) {
         const PictureSize size = sizeFromArgument("--size", arguments.size);
@@ -74,8 +77,13 @@ Surface surfaceToDraw(const RenderArguments& arguments, Surface measured, const 
 std::vector<Light> lightsOf(const RenderArguments& arguments, const std::vector<CapturedLight>& captured)
 {
     std::vector<Light> lights;
-    if (arguments.environment.empty() || !arguments.lights.empty()) {
+    const bool hasOthers = !arguments.environment.empty() || !arguments.rig.empty();
+    if (!hasOthers || !arguments.lights.empty()) {
         lights = lightsFromArguments(arguments.lights, captured);
+    }
+    if (!arguments.rig.empty()) {
+        const std::vector<Light> more = rigFromArgument(arguments.rig).lights;
+        lights.insert(lights.end(), more.begin(), more.end());
     }
     if (!arguments.environment.empty()) {
         const Environment environment = loadEnvironment(arguments.environment);
@@ -86,19 +94,9 @@ std::vector<Light> lightsOf(const RenderArguments& arguments, const std::vector<
     return lights;
 }
 
-// The direction towards the viewer; it has to see the front of something.
-glm::vec3 viewOf(const RenderArguments& arguments)
+std::string percentage(double share)
 {
-    if (arguments.view.empty()) {
-        return {0, 0, 1};
-    }
-    const std::vector<float> numbers = numbersFromArgument(arguments.view);
-    const glm::dvec3 view = numbers.size() == 3 ? glm::dvec3(numbers[0], numbers[1], numbers[2]) : glm::dvec3(0);
-    if (!(view.z > 0)) {
-        throw Error("", fmt::format("--view {} is no direction to see the front from", arguments.view),
-                    "x,y,z towards the viewer, z above 0", Error::kUsage);
-    }
-    return glm::vec3(glm::normalize(view));
+    return share < 0.001 ? "below 0.1 %" : fmt::format("{:.1f} %", 100 * share);
 }
 
 } // namespace
@@ -107,7 +105,7 @@ void checkSceneArguments(const RenderArguments& arguments)
 {
     normalYOf(arguments);
     checkMaterialArguments(arguments);
-    viewOf(arguments);
+    viewFromArguments(arguments);
     const int count = arguments.environmentLights.value_or(kEnvironmentLights);
     if (count < 1 || count > kMostEnvironmentLights) {
         throw Error("", fmt::format("--environment-lights {} is out of range", count),
@@ -118,31 +116,46 @@ void checkSceneArguments(const RenderArguments& arguments)
     }
 }
 
-Scene sceneFromArguments(const RenderArguments& arguments, const Context& context)
+glm::vec3 viewFromArguments(const RenderArguments& arguments)
+{
+    if (arguments.view.empty()) {
+        return {0, 0, 1};
+    }
+    const std::vector<float> numbers = numbersFromText(arguments.view);
+    const glm::dvec3 view = numbers.size() == 3 ? glm::dvec3(numbers[0], numbers[1], numbers[2]) : glm::dvec3(0);
+    if (!(view.z > 0)) {
+        throw Error("", fmt::format("--view {} is no direction to see the front from", arguments.view),
+                    "x,y,z towards the viewer, z above 0", Error::kUsage);
+    }
+    return glm::vec3(glm::normalize(view));
+}
+
+Surface surfaceFromArguments(const RenderArguments& arguments, const Context& context)
 {
     Surface measured = arguments.material.empty() ? loadSurface(arguments.surface) : surfaceOfMaterial(arguments);
+    std::vector<CapturedLight> captured = measured.lights;
+    Surface surface = surfaceToDraw(arguments, std::move(measured), context);
+    surface.lights = std::move(captured);
+    return surface;
+}
+
+Scene sceneFromArguments(const RenderArguments& arguments, const Context& context)
+{
     Scene scene;
-    scene.lights = lightsOf(arguments, measured.lights);
-    scene.view = viewOf(arguments);
-    scene.surface = surfaceToDraw(arguments, std::move(measured), context);
+    scene.view = viewFromArguments(arguments);
+    scene.surface = surfaceFromArguments(arguments, context);
+    scene.lights = lightsOf(arguments, scene.surface.lights);
     return scene;
 }
 
-void noteLightsBeyondTables(const Scene& scene)
+void noteUnmeasured(const Scene& scene)
 {
-    for (const Material& material : scene.surface.materials) {
-        const TableDomain& domain = material.table.domain;
-        const auto beyond = std::count_if(scene.lights.begin(), scene.lights.end(), [&](const Light& light) {
-            constexpr float kTolerance = 0.001f; // radians
-            const float thetaD = halfDifferenceFromDirections(scene.view, light.direction, scene.view).thetaD;
-            return domain.coordinates == kHalfDifference && thetaD > domain.thetaDMax + kTolerance;
-        });
-        if (beyond > 0) {
-            fmt::print(stderr,
-                       "nacre: note: the table of '{}' spans lights up to {:.0f} degrees from the view; of {} given {} "
-                       "lie beyond, there its last values are used\n",
-                       material.name, 2 * glm::degrees(domain.thetaDMax), scene.lights.size(), beyond);
-        }
+    const UnmeasuredShare share = unmeasuredShare(scene);
+    if (share.pixels > 0) {
+        fmt::print(stderr,
+                   "nacre: note: {} of the lit pixels ({} of their light by n.l) ask for directions that were not "
+                   "measured: the nearest that were answer, --show coverage hatches them\n",
+                   percentage(share.pixels), percentage(share.light));
     }
 }
 

@@ -8,10 +8,16 @@ namespace nacre {
 // Throws Error (usage) where options contradict each other or are not understood; before anything is read.
 void checkSceneArguments(const RenderArguments& arguments);
 
-// The surface, or its material on other normals, fitted into --size; the lights; the view.
+// The direction towards the viewer; it has to see the front of something.
+glm::vec3 viewFromArguments(const RenderArguments& arguments);
+
+// The surface, or its material on other normals, fitted into --size; with the captured lights of the measured one.
+Surface surfaceFromArguments(const RenderArguments& arguments, const Context& context);
+
+// The same with the lights and the view.
 Scene sceneFromArguments(const RenderArguments& arguments, const Context& context);
 
-// A table answers with its border's values beyond the directions that it spans: said on stderr, not refused.
-void noteLightsBeyondTables(const Scene& scene);
+// Where a table was not measured it answers with what is nearest: said on stderr, not refused.
+void noteUnmeasured(const Scene& scene);
 
 } // namespace nacre

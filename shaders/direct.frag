@@ -1,6 +1,7 @@
 #version 460
 // Direct lighting of one material by one group of lights: a lookup of its table per pixel and light, added to what the
-// groups before it left. engine/scene/reference.cpp is the twin of this file on the CPU.
+// groups before it left; alpha counts the lights for which the table has nothing measured, where that is asked for.
+// engine/scene/reference.cpp is the twin of this file on the CPU.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_EXT_control_flow_attributes : require
@@ -12,10 +13,13 @@ layout(constant_id = kConstantLightCount) const int kLightCount = kLightsPerGrou
 layout(constant_id = kConstantCoordinates) const int kCoordinates = kHalfDifference;
 layout(constant_id = kConstantOneMaterial) const bool kOneMaterial = false;
 layout(constant_id = kConstantPacked) const bool kPacked = false;
+layout(constant_id = kConstantCoverage) const bool kCoverage = false;
+layout(constant_id = kConstantShadows) const bool kShadows = false;
 
 layout(binding = kBindingNormals) uniform sampler2D normals;
 layout(binding = kBindingAlbedo) uniform sampler2D albedos;
 layout(binding = kBindingTable) uniform sampler3D table;
+layout(binding = kBindingHorizon) uniform sampler2DArray horizons;
 layout(scalar, binding = kBindingLights) uniform Lights
 {
     LightFrame lights[kLightsPerGroup];
@@ -27,8 +31,8 @@ layout(scalar, push_constant) uniform Constants
 
 layout(location = 0) out vec4 radiance;
 
-// 1/sr; m is the normal in the light's frame.
-vec3 brdf(LightFrame light, vec3 n, vec3 m)
+// RGB in 1/sr and coverage; m is the normal in the light's frame.
+vec4 brdf(LightFrame light, vec3 n, vec3 m)
 {
     vec3 unit;
     if (kCoordinates == kNatural) {
@@ -36,12 +40,20 @@ vec3 brdf(LightFrame light, vec3 n, vec3 m)
     } else {
         unit = unitInFrame(light, m, constants.tableSize.w);
     }
-    return textureLod(table, texelFromUnit(unit, constants.tableSize.xyz), 0.0).rgb;
+    return textureLod(table, texelFromUnit(unit, constants.tableSize.xyz), 0.0);
+}
+
+// Share of the light's radiance that no height in its way takes.
+float shareOfLight(vec4 lookup, ivec2 pixel)
+{
+    float code = 255.0 * texelFetch(horizons, ivec3(pixel, int(lookup.x)), 0).r;
+    float nextCode = 255.0 * texelFetch(horizons, ivec3(pixel, int(lookup.y)), 0).r;
+    return visibility(lookup, code, nextCode);
 }
 
 void main()
 {
-    ivec2 pixel = ivec2(gl_FragCoord.xy);
+    ivec2 pixel = ivec2(gl_FragCoord.xy) + ivec2(0, constants.firstRow);
     vec4 normal = texelFetch(normals, pixel, 0);
     vec4 albedo = kOneMaterial ? vec4(1.0) : texelFetch(albedos, pixel, 0);
     vec3 n = kPacked ? normalFromDisc(kPackedReach * normal.xy) : normal.xyz;
@@ -51,9 +63,17 @@ void main()
         discard;
     }
     vec3 sum = vec3(0.0);
+    float unmeasured = 0.0;
     [[unroll]] for (int i = 0; i < kLightCount; ++i) {
         vec3 m = normalInFrame(lights[i], n);
-        sum += radianceFromBrdf(brdf(lights[i], n, m), lights[i].irradiance.rgb, cosineInFrame(lights[i], m));
+        vec4 f = brdf(lights[i], n, m);
+        float nDotL = cosineInFrame(lights[i], m);
+        float arriving = kShadows ? shareOfLight(constants.horizon[i], pixel) : 1.0;
+        sum += arriving * radianceFromBrdf(f.rgb, lights[i].irradiance.rgb, nDotL);
+        if (kCoverage && nDotL > 0.0 && arriving > 0.0) {
+            bool measured = isMeasured(f.w, lights[i].across.w, kCoordinates, constants.tableSize.w);
+            unmeasured += measured ? 0.0 : 1.0;
+        }
     }
-    radiance = vec4(albedo.rgb * sum, 0.0);
+    radiance = vec4(albedo.rgb * sum, unmeasured);
 }

@@ -163,7 +163,8 @@ bool BallCache::prepare()
                                                  .constants = constants,
                                                  .bindings = kOneInput,
                                                  .pushConstantBytes = sizeof(BallDisplayConstants),
-                                                 .targetFormat = modulated_ ? kHalfFormat : kCodeFormat}));
+                                                 .targetFormat = modulated_ ? kHalfFormat : kCodeFormat,
+                                                 .cover = Cover::disc}));
     }
     return true;
 }

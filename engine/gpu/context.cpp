@@ -16,7 +16,7 @@ VkPhysicalDevice choosePhysicalDevice(const Instance& instance, const std::strin
     return devices[chooseDevice(infos, selector)];
 }
 
-VkDevice createDevice(VkPhysicalDevice physicalDevice, uint32_t queueFamily)
+VkDevice createDevice(VkPhysicalDevice physicalDevice, uint32_t queueFamily, bool presents)
 {
     const float priority = 1;
     const VkDeviceQueueCreateInfo queue{.sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO,
@@ -28,12 +28,12 @@ VkDevice createDevice(VkPhysicalDevice physicalDevice, uint32_t queueFamily)
     features.vulkan13.synchronization2 = VK_TRUE;
     features.vulkan13.maintenance4 = VK_TRUE;
     features.vulkan12.scalarBlockLayout = VK_TRUE;
-    const char* extensions[] = {VK_KHR_PUSH_DESCRIPTOR_EXTENSION_NAME};
+    const char* extensions[] = {VK_KHR_PUSH_DESCRIPTOR_EXTENSION_NAME, VK_KHR_SWAPCHAIN_EXTENSION_NAME};
     const VkDeviceCreateInfo info{.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO,
                                   .pNext = &features.core,
                                   .queueCreateInfoCount = 1,
                                   .pQueueCreateInfos = &queue,
-                                  .enabledExtensionCount = 1,
+                                  .enabledExtensionCount = presents ? 2u : 1u,
                                   .ppEnabledExtensionNames = extensions};
     VkDevice device = VK_NULL_HANDLE;
     checkVulkan(vkCreateDevice(physicalDevice, &info, nullptr, &device), "vkCreateDevice");
@@ -70,8 +70,9 @@ VkFence createFence(VkDevice device)
 
 } // namespace
 
-Context::Context(const std::string& selector)
-    : physicalDevice_(choosePhysicalDevice(instance_, selector)), info_(describeDevice(physicalDevice_))
+Context::Context(const std::string& selector, std::span<const char* const> windowExtensions)
+    : instance_(windowExtensions), physicalDevice_(choosePhysicalDevice(instance_, selector)),
+      info_(describeDevice(physicalDevice_))
 {
     VkPhysicalDeviceMaintenance3Properties allocation{.sType =
                                                           VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MAINTENANCE_3_PROPERTIES};
@@ -82,10 +83,10 @@ Context::Context(const std::string& selector)
     largestAllocation_ = allocation.maxMemoryAllocationSize;
     vkGetPhysicalDeviceMemoryProperties(physicalDevice_, &memory_);
 
-    const uint32_t queueFamily = graphicsQueueFamily(physicalDevice_).value();
-    device_.reset(createDevice(physicalDevice_, queueFamily));
-    vkGetDeviceQueue(device(), queueFamily, 0, &queue_);
-    commandPool_ = {device(), createCommandPool(device(), queueFamily)};
+    queueFamily_ = graphicsQueueFamily(physicalDevice_).value();
+    device_.reset(createDevice(physicalDevice_, queueFamily_, !windowExtensions.empty()));
+    vkGetDeviceQueue(device(), queueFamily_, 0, &queue_);
+    commandPool_ = {device(), createCommandPool(device(), queueFamily_)};
     commands_ = allocateCommandBuffer(device(), commandPool_.get());
     done_ = {device(), createFence(device())};
     pushDescriptorSet =
@@ -108,6 +109,26 @@ uint32_t Context::memoryType(uint32_t typeBits, VkMemoryPropertyFlags required, 
 
 void Context::run(const std::function<void(VkCommandBuffer)>& record) const
 {
+    submit(record, {.sType = VK_STRUCTURE_TYPE_SUBMIT_INFO_2});
+}
+
+void Context::run(const std::function<void(VkCommandBuffer)>& record, VkSemaphore awaited, VkSemaphore done) const
+{
+    const VkSemaphoreSubmitInfo wait{.sType = VK_STRUCTURE_TYPE_SEMAPHORE_SUBMIT_INFO,
+                                     .semaphore = awaited,
+                                     .stageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT};
+    const VkSemaphoreSubmitInfo signal{.sType = VK_STRUCTURE_TYPE_SEMAPHORE_SUBMIT_INFO,
+                                       .semaphore = done,
+                                       .stageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT};
+    submit(record, {.sType = VK_STRUCTURE_TYPE_SUBMIT_INFO_2,
+                    .waitSemaphoreInfoCount = 1,
+                    .pWaitSemaphoreInfos = &wait,
+                    .signalSemaphoreInfoCount = 1,
+                    .pSignalSemaphoreInfos = &signal});
+}
+
+void Context::submit(const std::function<void(VkCommandBuffer)>& record, VkSubmitInfo2 info) const
+{
     checkVulkan(vkResetCommandPool(device(), commandPool_.get(), 0), "vkResetCommandPool");
     const VkCommandBufferBeginInfo begin{.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO,
                                          .flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT};
@@ -117,10 +138,10 @@ void Context::run(const std::function<void(VkCommandBuffer)>& record) const
 
     const VkCommandBufferSubmitInfo commandsInfo{.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO,
                                                  .commandBuffer = commands_};
-    const VkSubmitInfo2 submit{
-        .sType = VK_STRUCTURE_TYPE_SUBMIT_INFO_2, .commandBufferInfoCount = 1, .pCommandBufferInfos = &commandsInfo};
+    info.commandBufferInfoCount = 1;
+    info.pCommandBufferInfos = &commandsInfo;
     VkFence fence = done_.get();
-    checkVulkan(vkQueueSubmit2(queue_, 1, &submit, fence), "vkQueueSubmit2");
+    checkVulkan(vkQueueSubmit2(queue_, 1, &info, fence), "vkQueueSubmit2");
     checkVulkan(vkWaitForFences(device(), 1, &fence, VK_TRUE, UINT64_MAX), "vkWaitForFences");
     checkVulkan(vkResetFences(device(), 1, &fence), "vkResetFences");
 }

@@ -8,10 +8,23 @@
 #include "shared/layout.h"
 
 namespace nacre {
+namespace {
+
+constexpr std::array<uint8_t, 1> kNoCodes = {0};
+
+// Those of the group that starts at `first`.
+void fillHorizon(DirectConstants& constants, const LightGroups& lights, size_t first, size_t count, uint32_t azimuths)
+{
+    for (size_t i = 0; i < count; ++i) {
+        constants.horizon[i] = horizonLookup(lights.direction(first + i), static_cast<int>(azimuths));
+    }
+}
+
+} // namespace
 
 DirectPass::DirectPass(const Context& context)
     : context_(context), nearest_(makeSampler(context, VK_FILTER_NEAREST)),
-      linear_(makeSampler(context, VK_FILTER_LINEAR))
+      linear_(makeSampler(context, VK_FILTER_LINEAR)), noHorizon_(uploadLayers(context, {1, 1, 1}, 1, kNoCodes))
 {
 }
 
@@ -21,10 +34,12 @@ const Pipeline& DirectPass::pipeline(const Variant& variant)
     if (found == pipelines_.end()) {
         static constexpr std::array kBindings = {
             ShaderBinding{kBindingNormals, kTextureInput}, ShaderBinding{kBindingAlbedo, kTextureInput},
-            ShaderBinding{kBindingTable, kTextureInput}, ShaderBinding{kBindingLights, kUniformInput}};
+            ShaderBinding{kBindingTable, kTextureInput}, ShaderBinding{kBindingLights, kUniformInput},
+            ShaderBinding{kBindingHorizon, kTextureInput}};
         static_assert(kConstantLightCount == 0 && kConstantCoordinates == 1 && kConstantOneMaterial == 2 &&
-                      kConstantPacked == 3);
-        const std::array constants = {variant.lightCount, variant.coordinates, variant.oneMaterial, variant.packed};
+                      kConstantPacked == 3 && kConstantCoverage == 4 && kConstantShadows == 5);
+        const std::array constants = {variant.lightCount, variant.coordinates, variant.oneMaterial,
+                                      variant.packed,     variant.coverage,    variant.shadows};
         found = pipelines_
                     .emplace(variant, Pipeline(context_, {.fragmentShader = direct_frag,
                                                           .constants = constants,
@@ -43,17 +58,28 @@ void DirectPass::record(VkCommandBuffer commands, const Inputs& inputs, const Li
     assert(first % kLightsPerGroup == 0);
     const VkExtent3D size = inputs.table.texture.extent();
     const TableDomain& domain = inputs.table.domain;
-    const DirectConstants constants{.view = glm::vec4(lights.view(), 0),
-                                    .tableSize = glm::vec4(size.width, size.height, size.depth, domain.thetaDMax),
-                                    .material = inputs.material};
+    DirectConstants constants{.view = glm::vec4(lights.view(), 0),
+                              .tableSize = glm::vec4(size.width, size.height, size.depth, domain.thetaDMax),
+                              .material = inputs.material,
+                              .firstRow = inputs.firstRow,
+                              .horizon = {}};
     const Texture& albedo = inputs.albedo ? *inputs.albedo : inputs.normals; // bound, but not read
+    const Texture& horizon = inputs.horizon ? *inputs.horizon : noHorizon_;
     for (size_t light = first; light < last; light += kLightsPerGroup) {
         const auto count = static_cast<int>(std::min<size_t>(last - light, kLightsPerGroup));
         const std::array shaderInputs = {
             textureInput(kBindingNormals, nearest_, inputs.normals), textureInput(kBindingAlbedo, nearest_, albedo),
-            textureInput(kBindingTable, linear_, inputs.table.texture), lights.group(light / kLightsPerGroup)};
-        const Variant variant{count, domain.coordinates, inputs.albedo == nullptr,
-                              inputs.normals.format() == kPackedNormalFormat};
+            textureInput(kBindingTable, linear_, inputs.table.texture), lights.group(light / kLightsPerGroup),
+            textureInput(kBindingHorizon, nearest_, horizon)};
+        if (inputs.horizon) {
+            fillHorizon(constants, lights, light, static_cast<size_t>(count), horizon.layers());
+        }
+        const Variant variant{count,
+                              domain.coordinates,
+                              inputs.albedo == nullptr,
+                              inputs.normals.format() == kPackedNormalFormat,
+                              inputs.coverage && inputs.table.knowsCoverage,
+                              inputs.horizon != nullptr};
         draw(context_, commands, pipeline(variant), shaderInputs, bytesOf(constants));
     }
 }

@@ -22,7 +22,7 @@ Pipeline floorPipeline(const Context& context, bool plain)
 } // namespace
 
 FloorPass::FloorPass(const Context& context, const Surface& surface)
-    : context_(context), plain_(isPlain(surface)), pixels_(uploadPixels(context, surface, Precision::compact)),
+    : context_(context), plain_(isPlain(surface)), pixels_(uploadPixels(context, surface, plain_, Precision::compact)),
       target_(makeTarget(context, pixels_.normals.extent(), kCodeFormat)),
       nearest_(makeSampler(context, VK_FILTER_NEAREST)), pipeline_(floorPipeline(context, plain_))
 {

@@ -35,7 +35,7 @@ template <typename Function> Function instanceFunction(VkInstance instance, cons
 }
 
 // VK_NULL_HANDLE where the loader finds no driver at all.
-VkInstance createInstance(const VkDebugUtilsMessengerCreateInfoEXT* messenger)
+VkInstance createInstance(const VkDebugUtilsMessengerCreateInfoEXT* messenger, std::span<const char* const> wanted)
 {
     const VkApplicationInfo application{
         .sType = VK_STRUCTURE_TYPE_APPLICATION_INFO, .pApplicationName = "nacre", .apiVersion = VK_API_VERSION_1_3};
@@ -45,15 +45,19 @@ VkInstance createInstance(const VkDebugUtilsMessengerCreateInfoEXT* messenger)
                                            .enabledValidationFeatureCount = 1,
                                            .pEnabledValidationFeatures = &synchronization};
     const char* layer = "VK_LAYER_KHRONOS_validation";
-    const char* extensions[] = {VK_EXT_DEBUG_UTILS_EXTENSION_NAME, VK_EXT_VALIDATION_FEATURES_EXTENSION_NAME};
     const bool validate = messenger != nullptr;
+    std::vector<const char*> extensions(wanted.begin(), wanted.end());
+    if (validate) {
+        extensions.insert(extensions.end(),
+                          {VK_EXT_DEBUG_UTILS_EXTENSION_NAME, VK_EXT_VALIDATION_FEATURES_EXTENSION_NAME});
+    }
     const VkInstanceCreateInfo info{.sType = VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO,
                                     .pNext = validate ? &features : nullptr,
                                     .pApplicationInfo = &application,
                                     .enabledLayerCount = validate ? 1u : 0u,
                                     .ppEnabledLayerNames = &layer,
-                                    .enabledExtensionCount = validate ? 2u : 0u,
-                                    .ppEnabledExtensionNames = extensions};
+                                    .enabledExtensionCount = static_cast<uint32_t>(extensions.size()),
+                                    .ppEnabledExtensionNames = extensions.data()};
     VkInstance instance = VK_NULL_HANDLE;
     const VkResult result = vkCreateInstance(&info, nullptr, &instance);
     if (result == VK_ERROR_INCOMPATIBLE_DRIVER) {
@@ -69,7 +73,7 @@ VkInstance createInstance(const VkDebugUtilsMessengerCreateInfoEXT* messenger)
 
 } // namespace
 
-Instance::Instance()
+Instance::Instance(std::span<const char* const> extensions)
 {
     const VkDebugUtilsMessengerCreateInfoEXT messenger{
         .sType = VK_STRUCTURE_TYPE_DEBUG_UTILS_MESSENGER_CREATE_INFO_EXT,
@@ -79,7 +83,7 @@ Instance::Instance()
         .pfnUserCallback = countMessage,
         .pUserData = &messages_};
     const bool validate = validationIsWanted();
-    instance_ = createInstance(validate ? &messenger : nullptr);
+    instance_ = createInstance(validate ? &messenger : nullptr, extensions);
     if (instance_ != VK_NULL_HANDLE && validate) {
         const auto create =
             instanceFunction<PFN_vkCreateDebugUtilsMessengerEXT>(instance_, "vkCreateDebugUtilsMessengerEXT");

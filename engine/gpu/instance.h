@@ -1,5 +1,6 @@
 #pragma once
 #include <atomic>
+#include <span>
 #include <vector>
 
 #include <vulkan/vulkan.h>
@@ -8,14 +9,15 @@ namespace nacre {
 
 // The connection to the Vulkan loader. Where no driver is installed it is empty and has no devices. Validation with
 // synchronization checks is loaded when the build asks for it (NACRE_VALIDATION) or the environment says
-// NACRE_VALIDATION=1.
+// NACRE_VALIDATION=1. A window asks for `extensions` of its own.
 class Instance {
 public:
-    Instance();
+    explicit Instance(std::span<const char* const> extensions = {});
     ~Instance();
     Instance(const Instance&) = delete;
     Instance& operator=(const Instance&) = delete;
 
+    VkInstance get() const { return instance_; }
     std::vector<VkPhysicalDevice> physicalDevices() const;
     bool validates() const { return messenger_ != VK_NULL_HANDLE; }
     // Warnings and errors of the validation layer so far; each was printed on stderr.

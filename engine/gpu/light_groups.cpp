@@ -16,7 +16,10 @@ void LightGroups::upload(const Context& context, std::span<const Light> lights, 
     if (buffer_.bytes() < groups * kGroupBytes) {
         buffer_ = Buffer(context, groups * kGroupBytes, VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT);
     }
-    lightCount_ = lights.size();
+    directions_.clear();
+    for (const Light& light : lights) {
+        directions_.push_back(light.direction);
+    }
     view_ = view;
     std::transform(lights.begin(), lights.end(), static_cast<LightFrame*>(buffer_.mapped()),
                    [&](const Light& light) { return lightFrame(light.direction, view, light.irradiance); });

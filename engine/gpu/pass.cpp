@@ -62,7 +62,7 @@ void draw(const Context& context, VkCommandBuffer commands, const Pipeline& pipe
         vkCmdPushConstants(commands, pipeline.layout(), VK_SHADER_STAGE_FRAGMENT_BIT, 0,
                            static_cast<uint32_t>(constants.size()), constants.data());
     }
-    vkCmdDraw(commands, 3, 1, 0, 0);
+    vkCmdDraw(commands, pipeline.vertexCount(), 1, 0, 0);
 }
 
 } // namespace nacre

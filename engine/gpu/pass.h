@@ -28,7 +28,7 @@ enum class Load { clear, keep }; // black and opaque, or what is there
 // The target must be in kDrawnTo. `area` is where draws go, the whole target where it is empty.
 void beginRendering(VkCommandBuffer commands, const Texture& target, Load load, VkRect2D area = {});
 
-// Covers the area. `constants` is the pipeline's push constant struct.
+// Covers what the pipeline covers of the area. `constants` is the pipeline's push constant struct.
 void draw(const Context& context, VkCommandBuffer commands, const Pipeline& pipeline,
           std::span<const ShaderInput> inputs, std::span<const std::byte> constants);
 

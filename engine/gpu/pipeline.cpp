@@ -3,6 +3,7 @@
 #include <array>
 #include <vector>
 
+#include "disc_vert.h"
 #include "engine/gpu/check.h"
 #include "fullscreen_vert.h"
 
@@ -71,11 +72,13 @@ std::vector<VkSpecializationMapEntry> constantEntries(size_t count)
     return entries;
 }
 
-// The fixed parts that every pass has: a triangle without vertices, one sample, a viewport of the target's size that
+// The fixed parts that every pass has: triangles without vertices, one sample, a viewport of the target's size that
 // is set while recording.
 VkPipeline createPipeline(VkDevice device, VkPipelineLayout layout, const PassDescription& pass)
 {
-    const ShaderModule vertex = makeShaderModule(device, fullscreen_vert);
+    const std::span<const uint32_t> cover =
+        pass.cover == Cover::disc ? std::span<const uint32_t>(disc_vert) : fullscreen_vert;
+    const ShaderModule vertex = makeShaderModule(device, cover);
     const ShaderModule fragment = makeShaderModule(device, pass.fragmentShader);
     const std::vector<VkSpecializationMapEntry> entries = constantEntries(pass.constants.size());
     const VkSpecializationInfo constants{.mapEntryCount = static_cast<uint32_t>(entries.size()),
@@ -139,7 +142,8 @@ VkPipeline createPipeline(VkDevice device, VkPipelineLayout layout, const PassDe
 Pipeline::Pipeline(const Context& context, const PassDescription& pass)
     : setLayout_(context.device(), createSetLayout(context.device(), pass.bindings)),
       layout_(context.device(), createLayout(context.device(), setLayout_.get(), pass.pushConstantBytes)),
-      pipeline_(context.device(), createPipeline(context.device(), layout_.get(), pass))
+      pipeline_(context.device(), createPipeline(context.device(), layout_.get(), pass)),
+      vertexCount_(pass.cover == Cover::disc ? 42 : 3)
 {
 }
 

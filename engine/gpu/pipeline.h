@@ -17,7 +17,10 @@ struct ShaderBinding {
 // What happens to what a target holds.
 enum class Blend { replace, add };
 
-// A pass that covers its area of the target with one triangle.
+// What a pass covers of its area: all of it, or the disc that fills it.
+enum class Cover { area, disc };
+
+// A pass without vertex buffers.
 struct PassDescription {
     std::span<const uint32_t> fragmentShader; // SPIR-V
     std::span<const int32_t> constants;       // specialisation constants 0, 1, ...
@@ -25,6 +28,7 @@ struct PassDescription {
     uint32_t pushConstantBytes = 0;           // seen by the fragment shader
     VkFormat targetFormat = VK_FORMAT_UNDEFINED;
     Blend blend = Blend::replace;
+    Cover cover = Cover::area;
 };
 
 class Pipeline {
@@ -34,11 +38,13 @@ public:
 
     VkPipeline get() const { return pipeline_.get(); }
     VkPipelineLayout layout() const { return layout_.get(); }
+    uint32_t vertexCount() const { return vertexCount_; }
 
 private:
     Owned<VkDescriptorSetLayout, vkDestroyDescriptorSetLayout> setLayout_;
     Owned<VkPipelineLayout, vkDestroyPipelineLayout> layout_;
     Owned<VkPipeline, vkDestroyPipeline> pipeline_;
+    uint32_t vertexCount_ = 0;
 };
 
 } // namespace nacre

@@ -8,8 +8,8 @@
 #include <fmt/format.h>
 
 #include "ball_frag.h"
-#include "display_frag.h"
 #include "engine/scene/error.h"
+#include "engine/scene/sampled_pixels.h"
 #include "shared/layout.h"
 
 namespace nacre {
@@ -23,17 +23,27 @@ bool isFromTheFront(const glm::vec3& view)
 constexpr std::array kBallBindings = {ShaderBinding{kBindingNormals, kTextureInput},
                                       ShaderBinding{kBindingAlbedo, kTextureInput},
                                       ShaderBinding{kBindingInput, kTextureInput}};
-constexpr std::array kDisplayBindings = {ShaderBinding{kBindingInput, kTextureInput}};
+
+bool dependsOnLights(Show show)
+{
+    return show != Show::normals && show != Show::labels;
+}
+
+bool dependsOnDisplay(Show show)
+{
+    return show == Show::picture || show == Show::coverage;
+}
 
 } // namespace
 
 Renderer::Renderer(const Context& context, VkDeviceSize cacheBytes)
     : context_(context), nearest_(makeSampler(context, VK_FILTER_NEAREST)), direct_(context),
-      balls_(context, direct_, cacheBytes), cacheBytes_(cacheBytes)
+      balls_(context, direct_, cacheBytes), cacheBytes_(cacheBytes), directFrame_(context, direct_),
+      exposureFrame_(context, direct_), falseColours_(context)
 {
 }
 
-void Renderer::setSurface(Surface surface)
+void Renderer::setSurface(Surface surface, std::vector<BallSize> sizes)
 {
     requirePictureSize(context_, surface.normals.width, surface.normals.height);
     tables_.clear();
@@ -42,18 +52,28 @@ void Renderer::setSurface(Surface surface)
     }
     surface_ = std::move(surface);
     plain_ = isPlain(surface_);
-    pixels_.clear();
-    ballSizes_.clear();
+    pixels_.reset();
+    exposurePixels_.reset();
+    directFrame_.reset();
+    exposureFrame_.reset();
+    ballSizes_ = std::move(sizes);
     radiance_.reset();
     picture_.reset();
-    ballsAreStale_ = radianceIsStale_ = pictureIsStale_ = true;
+    ballsAreStale_ = pictureIsStale_ = true;
+}
+
+void Renderer::lightsHaveChanged()
+{
+    lightsAreStale_ = true;
+    radiance_.reset();
+    pictureIsStale_ = pictureIsStale_ || dependsOnLights(show_);
 }
 
 void Renderer::setLights(std::span<const Light> lights)
 {
     if (!std::equal(lights.begin(), lights.end(), lights_.begin(), lights_.end())) {
         lights_.assign(lights.begin(), lights.end());
-        lightsAreStale_ = radianceIsStale_ = pictureIsStale_ = true;
+        lightsHaveChanged();
     }
 }
 
@@ -61,20 +81,27 @@ void Renderer::setView(const glm::vec3& view)
 {
     if (view != view_) {
         view_ = view;
-        lightsAreStale_ = radianceIsStale_ = pictureIsStale_ = true;
+        lightsHaveChanged();
+        pictureIsStale_ = true;
     }
 }
 
 void Renderer::setPath(RenderPath path)
 {
-    pictureIsStale_ = pictureIsStale_ || path != path_;
+    pictureIsStale_ = pictureIsStale_ || (path != path_ && show_ == Show::picture);
     path_ = path;
 }
 
 void Renderer::setDisplay(const Display& display)
 {
-    pictureIsStale_ = pictureIsStale_ || !(display == display_);
+    pictureIsStale_ = pictureIsStale_ || (!(display == display_) && dependsOnDisplay(show_));
     display_ = display;
+}
+
+void Renderer::setShow(Show show)
+{
+    pictureIsStale_ = pictureIsStale_ || show != show_;
+    show_ = show;
 }
 
 const std::vector<BallSize>& Renderer::ballSizes()
@@ -87,8 +114,17 @@ const std::vector<BallSize>& Renderer::ballSizes()
 
 std::string Renderer::whyDirect()
 {
+    if (show_ == Show::coverage) {
+        return "coverage is looked up per pixel and light";
+    }
     if (!isFromTheFront(view_)) {
         return "balls are for the view from the front";
+    }
+    if (surface_.materials.empty()) {
+        return "there is no material";
+    }
+    if (!surface_.horizon.empty()) {
+        return "cast shadows differ between pixels of one normal";
     }
     for (size_t i = 0; i < ballSizes().size(); ++i) {
         if (ballSizes()[i].radiance == 0) {
@@ -96,7 +132,7 @@ std::string Renderer::whyDirect()
         }
     }
     const VkDeviceSize bytes = BallCache::leastBytes(ballSizes(), !plain_, lights_.size());
-    if (surface_.materials.empty() || bytes > cacheBytes_) {
+    if (bytes > cacheBytes_) {
         return fmt::format("the balls of {} material(s) take {} MiB, {} may be cached", surface_.materials.size(),
                            bytes >> 20, cacheBytes_ >> 20);
     }
@@ -105,7 +141,7 @@ std::string Renderer::whyDirect()
 
 RenderPath Renderer::pathTaken()
 {
-    if (path_ == RenderPath::direct) {
+    if (path_ == RenderPath::direct || show_ == Show::coverage) {
         return RenderPath::direct;
     }
     const std::string reason = whyDirect();
@@ -115,25 +151,24 @@ RenderPath Renderer::pathTaken()
     return reason.empty() ? RenderPath::ball : RenderPath::direct;
 }
 
-const PixelTextures& Renderer::pixels(Precision precision)
+const PixelTextures& Renderer::pixels()
 {
-    auto found = pixels_.find(precision);
-    if (found == pixels_.end()) {
-        found = pixels_.emplace(precision, uploadPixels(context_, surface_, precision)).first;
+    if (!pixels_) {
+        pixels_ = uploadPixels(context_, surface_, plain_, Precision::compact);
     }
-    return found->second;
+    return *pixels_;
 }
 
-Renderer::Target& Renderer::target(std::optional<Target>& target, VkFormat format, VkDeviceSize texelBytes)
+Renderer::Target& Renderer::target()
 {
-    if (!target) {
+    if (!picture_) {
         const VkExtent3D extent{static_cast<uint32_t>(surface_.normals.width),
                                 static_cast<uint32_t>(surface_.normals.height), 1};
-        target.emplace(Target{makeTarget(context_, extent, format),
-                              Buffer(context_, VkDeviceSize{extent.width} * extent.height * texelBytes,
-                                     VK_BUFFER_USAGE_TRANSFER_DST_BIT)});
+        picture_.emplace(
+            Target{makeTarget(context_, extent, kCodeFormat),
+                   Buffer(context_, VkDeviceSize{4} * extent.width * extent.height, VK_BUFFER_USAGE_TRANSFER_DST_BIT)});
     }
-    return *target;
+    return *picture_;
 }
 
 void Renderer::uploadLights()
@@ -144,60 +179,52 @@ void Renderer::uploadLights()
     }
 }
 
-// One draw per material and group of lights; what they write adds up.
-void Renderer::recordDirect(VkCommandBuffer commands, const Texture& into, const PixelTextures& pixels)
+const Pipeline& Renderer::ballPipeline()
 {
-    imageBarrier(commands, into.image(), kDiscarded, kDrawnTo);
-    beginRendering(commands, into, Load::clear);
-    for (size_t material = 0; material < tables_.size(); ++material) {
-        direct_.record(
-            commands,
-            {pixels.normals, plain_ ? nullptr : &pixels.albedo, tables_[material], static_cast<int>(material)}, groups_,
-            0, lights_.size());
-    }
-    vkCmdEndRendering(commands);
-}
-
-const Pipeline& Renderer::framePipeline(RenderPath path)
-{
-    const bool ball = path == RenderPath::ball, modulated = ball && !plain_;
-    const std::array key = {int{ball}, int{modulated}, display_.toneCurve};
-    auto found = pipelines_.find(key);
-    if (found == pipelines_.end()) {
-        PassDescription pass{.fragmentShader = display_frag,
-                             .bindings = kDisplayBindings,
-                             .pushConstantBytes = sizeof(DisplayConstants),
-                             .targetFormat = kCodeFormat};
-        if (ball) {
-            pass.fragmentShader = ball_frag;
-            pass.bindings = kBallBindings;
-            pass.pushConstantBytes = sizeof(BallConstants);
-        }
-        static_assert(kConstantModulated == 0 && kConstantToneCurve == 1);
-        pass.constants = std::span(key).subspan(1);
-        found = pipelines_.emplace(key, Pipeline(context_, pass)).first;
+    static_assert(kConstantModulated == 0 && kConstantToneCurve == 1);
+    const std::pair key{int{!plain_}, display_.toneCurve};
+    auto found = ballPipelines_.find(key);
+    if (found == ballPipelines_.end()) {
+        const std::array constants = {key.first, key.second};
+        found = ballPipelines_
+                    .emplace(key, Pipeline(context_, {.fragmentShader = ball_frag,
+                                                      .constants = constants,
+                                                      .bindings = kBallBindings,
+                                                      .pushConstantBytes = sizeof(BallConstants),
+                                                      .targetFormat = kCodeFormat}))
+                    .first;
     }
     return found->second;
 }
 
-void Renderer::drawDirectPicture()
+void Renderer::drawInto(const std::function<void(VkCommandBuffer)>& record)
 {
-    Texture& codes = target(picture_, kCodeFormat, 4).texture;
-    Texture& radiance = target(radiance_, kFloatFormat, sizeof(glm::vec4)).texture;
-    const PixelTextures& inputs = pixels(Precision::compact);
-    const Pipeline& encode = framePipeline(RenderPath::direct);
+    const Texture& codes = target().texture;
     context_.run([&](VkCommandBuffer commands) {
-        recordDirect(commands, radiance, inputs);
-        imageBarrier(commands, radiance.image(), kDrawnTo, kSampled);
         imageBarrier(commands, codes.image(), kDiscarded, kDrawnTo);
-        beginRendering(commands, codes, Load::clear);
-        const std::array shaderInputs = {textureInput(kBindingInput, nearest_, radiance)};
-        draw(context_, commands, encode, shaderInputs,
-             bytesOf(DisplayConstants{.gain = std::exp2(display_.exposureStops)}));
-        vkCmdEndRendering(commands);
+        record(commands);
         imageBarrier(commands, codes.image(), kDrawnTo, kCopiedFrom);
     });
-    radianceIsStale_ = true; // what the target holds is the picture's, from 16-bit inputs
+}
+
+void Renderer::drawDirectPicture()
+{
+    const DirectFrame::Look look{display_, show_ == Show::coverage};
+    const PixelTextures& from = pixels();
+    drawInto([&](VkCommandBuffer commands) {
+        directFrame_.recordPicture(commands, from, inputs(), look, picture_->texture);
+    });
+}
+
+void Renderer::drawFalseColours()
+{
+    const FalseColourConstants constants = falseColourConstants(lights_, view_, surface_.materials.size());
+    const PixelTextures& from = pixels();
+    drawInto([&](VkCommandBuffer commands) {
+        beginRendering(commands, picture_->texture, Load::clear);
+        falseColours_.record(commands, from, plain_, show_, constants);
+        vkCmdEndRendering(commands);
+    });
 }
 
 void Renderer::updateBalls()
@@ -220,22 +247,19 @@ void Renderer::updateBalls()
 void Renderer::drawBallPicture()
 {
     updateBalls();
-    Texture& codes = target(picture_, kCodeFormat, 4).texture;
-    const PixelTextures& inputs = pixels(Precision::compact);
-    const Texture& albedo = plain_ ? inputs.normals : inputs.albedo; // bound, but not read where plain
-    const Pipeline& frame = framePipeline(RenderPath::ball);
+    const PixelTextures& from = pixels();
+    const Texture& albedo = plain_ ? from.normals : from.albedo; // bound, but not read where plain
+    const Pipeline& frame = ballPipeline();
     const BallConstants constants{.size = balls_.displaySize(),
                                   .columns = static_cast<float>(balls_.columns()),
                                   .materials = static_cast<int>(tables_.size())};
-    context_.run([&](VkCommandBuffer commands) {
-        imageBarrier(commands, codes.image(), kDiscarded, kDrawnTo);
-        beginRendering(commands, codes, Load::clear);
-        const std::array shaderInputs = {textureInput(kBindingNormals, nearest_, inputs.normals),
+    drawInto([&](VkCommandBuffer commands) {
+        beginRendering(commands, picture_->texture, Load::clear);
+        const std::array shaderInputs = {textureInput(kBindingNormals, nearest_, from.normals),
                                          textureInput(kBindingAlbedo, nearest_, albedo),
                                          textureInput(kBindingInput, nearest_, balls_.displayBalls())};
         draw(context_, commands, frame, shaderInputs, bytesOf(constants));
         vkCmdEndRendering(commands);
-        imageBarrier(commands, codes.image(), kDrawnTo, kCopiedFrom);
     });
 }
 
@@ -245,7 +269,9 @@ void Renderer::drawPicture()
         return;
     }
     uploadLights();
-    if (pathTaken() == RenderPath::ball) {
+    if (show_ != Show::picture && show_ != Show::coverage) {
+        drawFalseColours();
+    } else if (pathTaken() == RenderPath::ball) {
         drawBallPicture();
     } else {
         drawDirectPicture();
@@ -254,20 +280,16 @@ void Renderer::drawPicture()
     ++drawnPictures_;
 }
 
-void Renderer::readBack(const Target& target)
-{
-    context_.run([&](VkCommandBuffer commands) {
-        const VkBufferImageCopy copy{.imageSubresource = {.aspectMask = VK_IMAGE_ASPECT_COLOR_BIT, .layerCount = 1},
-                                     .imageExtent = target.texture.extent()};
-        vkCmdCopyImageToBuffer(commands, target.texture.image(), kCopiedFrom.layout, target.readback.get(), 1, &copy);
-        makeVisibleToHost(commands, target.readback);
-    });
-}
-
 Image Renderer::picture()
 {
     drawPicture();
-    readBack(*picture_);
+    context_.run([&](VkCommandBuffer commands) {
+        const VkBufferImageCopy copy{.imageSubresource = {.aspectMask = VK_IMAGE_ASPECT_COLOR_BIT, .layerCount = 1},
+                                     .imageExtent = picture_->texture.extent()};
+        vkCmdCopyImageToBuffer(commands, picture_->texture.image(), kCopiedFrom.layout, picture_->readback.get(), 1,
+                               &copy);
+        makeVisibleToHost(commands, picture_->readback);
+    });
     Image picture(surface_.normals.width, surface_.normals.height, 3);
     const auto* codes = static_cast<const uint8_t*>(picture_->readback.mapped());
     for (size_t i = 0; i < picture.pixelCount(); ++i) {
@@ -280,25 +302,20 @@ Image Renderer::picture()
 
 Frame Renderer::radiance()
 {
-    Target& into = target(radiance_, kFloatFormat, sizeof(glm::vec4));
-    if (radianceIsStale_) {
+    if (!radiance_) {
         uploadLights();
-        const PixelTextures& inputs = pixels(Precision::full);
-        context_.run([&](VkCommandBuffer commands) {
-            recordDirect(commands, into.texture, inputs);
-            imageBarrier(commands, into.texture.image(), kDrawnTo, kCopiedFrom);
-        });
-        readBack(into);
-        radianceIsStale_ = false;
+        radiance_ = directFrame_.radiance(surface_, inputs());
     }
-    Frame frame(surface_.normals.width, surface_.normals.height, 3);
-    const auto* texels = static_cast<const glm::vec4*>(into.readback.mapped());
-    for (size_t i = 0; i < frame.pixelCount(); ++i) {
-        for (int c = 0; c < 3; ++c) {
-            frame.values[3 * i + c] = texels[i][c];
-        }
+    return *radiance_;
+}
+
+float Renderer::automaticExposure()
+{
+    if (!exposurePixels_) {
+        exposurePixels_ = sampledPixels(surface_, kExposurePixels);
     }
-    return frame;
+    uploadLights();
+    return nacre::automaticExposure(exposureFrame_.radiance(*exposurePixels_, inputs()));
 }
 
 Frame Renderer::render(std::span<const Light> lights, const glm::vec3& view)
@@ -316,16 +333,12 @@ Frame Renderer::render(const Scene& scene)
 
 VkDeviceSize Renderer::deviceBytes() const
 {
-    VkDeviceSize bytes = balls_.bytes() + groups_.bytes();
+    VkDeviceSize bytes = balls_.bytes() + groups_.bytes() + directFrame_.bytes() + exposureFrame_.bytes();
     for (const TableTexture& table : tables_) {
         bytes += table.texture.bytes();
     }
-    for (const auto& [precision, textures] : pixels_) {
-        bytes += textures.bytes();
-    }
-    for (const auto* target : {&radiance_, &picture_}) {
-        bytes += *target ? (*target)->texture.bytes() + (*target)->readback.bytes() : 0;
-    }
+    bytes += pixels_ ? pixels_->bytes() : 0;
+    bytes += picture_ ? picture_->texture.bytes() + picture_->readback.bytes() : 0;
     return bytes;
 }
 

@@ -1,12 +1,13 @@
 #pragma once
-#include <array>
+#include <functional>
 #include <map>
 #include <optional>
 #include <span>
 #include <vector>
 
 #include "engine/gpu/ball_cache.h"
-#include "engine/gpu/direct_pass.h"
+#include "engine/gpu/direct_frame.h"
+#include "engine/gpu/false_colour_pass.h"
 #include "engine/gpu/light_groups.h"
 #include "engine/gpu/surface_textures.h"
 #include "engine/scene/scene.h"
@@ -23,21 +24,28 @@ enum class RenderPath { automatic, direct, ball };
 class Renderer {
 public:
     static constexpr VkDeviceSize kCacheBytes = 64 << 20;
+    static constexpr size_t kExposurePixels = 1 << 14;
 
     explicit Renderer(const Context& context, VkDeviceSize cacheBytes = kCacheBytes);
 
-    void setSurface(Surface surface);
+    // `sizes`: measuredBallSize of each material, where they are known already; they take a while to measure.
+    void setSurface(Surface surface, std::vector<BallSize> sizes = {});
     void setLights(std::span<const Light> lights);
     void setView(const glm::vec3& view); // unit, towards the viewer
     void setPath(RenderPath path);
     void setDisplay(const Display& display);
+    void setShow(Show show); // the picture by default
 
     // Linear radiance by the direct path in 32-bit floats, whatever the path that is set.
     Frame radiance();
+    // Stops as automaticExposure has them for that radiance: of all pixels, or of an even sample of kExposurePixels.
+    float automaticExposure();
     // Codes of the display in [0,1], n/255, by the path that is set; 3 channels.
     Image picture();
     // The same without reading it back.
     void drawPicture();
+    // What it has drawn: codes, to be copied from (kCopiedFrom).
+    const Texture& drawnPicture() const { return picture_->texture; }
     // The part of it that does not depend on the pixels; nothing on the direct path.
     void updateBalls();
     // Draws the next picture again though nothing changed: for measurement.
@@ -62,43 +70,50 @@ public:
 
 private:
     struct Target {
-        Texture texture;
+        Texture texture; // kCodeFormat
         Buffer readback;
     };
 
-    const PixelTextures& pixels(Precision precision);
-    Target& target(std::optional<Target>& target, VkFormat format, VkDeviceSize texelBytes);
+    const PixelTextures& pixels();
+    Target& target();
     void uploadLights();
-    void recordDirect(VkCommandBuffer commands, const Texture& into, const PixelTextures& pixels);
-    const Pipeline& framePipeline(RenderPath path);
+    void lightsHaveChanged();
+    const Pipeline& ballPipeline();
+    DirectFrame::Inputs inputs() const { return {tables_, groups_, plain_}; }
+    // Draws into the picture's target, from black.
+    void drawInto(const std::function<void(VkCommandBuffer)>& record);
     void drawDirectPicture();
     void drawBallPicture();
-    void readBack(const Target& target);
+    void drawFalseColours();
 
     const Context& context_;
     Sampler nearest_;
     DirectPass direct_;
     BallCache balls_;
     VkDeviceSize cacheBytes_;
-    std::map<std::array<int, 3>, Pipeline> pipelines_; // by ball, modulated, tone curve
+    DirectFrame directFrame_;
+    DirectFrame exposureFrame_; // of exposurePixels_
+    FalseColourPass falseColours_;
+    std::map<std::pair<int, int>, Pipeline> ballPipelines_; // by modulated and tone curve
 
     Surface surface_;
     bool plain_ = false;
     std::vector<TableTexture> tables_;
     std::vector<BallSize> ballSizes_;
-    std::map<Precision, PixelTextures> pixels_;
+    std::optional<Surface> exposurePixels_;
+    std::optional<PixelTextures> pixels_; // compact
     std::vector<Light> lights_;
     LightGroups groups_;
     glm::vec3 view_{0, 0, 1};
     RenderPath path_ = RenderPath::automatic;
     Display display_;
+    Show show_ = Show::picture;
 
     bool lightsAreStale_ = true;
     bool ballsAreStale_ = true; // the cache does not know the materials yet
     bool pictureIsStale_ = true;
-    bool radianceIsStale_ = true;
-    std::optional<Target> radiance_; // kFloatFormat
-    std::optional<Target> picture_;  // kCodeFormat
+    std::optional<Frame> radiance_; // where it is not stale
+    std::optional<Target> picture_;
     size_t drawnPictures_ = 0;
 };
 

@@ -1,5 +1,6 @@
 #include "engine/gpu/surface_textures.h"
 
+#include "engine/scene/coverage.h"
 #include "shared/ball.h"
 
 namespace nacre {
@@ -44,11 +45,11 @@ bool isPlain(const Surface& surface)
     return surface.materials.size() == 1 && surface.albedo.values.empty();
 }
 
-PixelTextures uploadPixels(const Context& context, const Surface& surface, Precision precision)
+PixelTextures uploadPixels(const Context& context, const Surface& surface, bool plain, Precision precision)
 {
     const VkExtent3D extent{static_cast<uint32_t>(surface.normals.width), static_cast<uint32_t>(surface.normals.height),
                             1};
-    const bool plain = isPlain(surface), full = precision == Precision::full;
+    const bool full = precision == Precision::full;
     std::vector<glm::vec4> normals = normalTexels(surface, plain);
     if (!full) {
         pack(normals);
@@ -60,6 +61,10 @@ PixelTextures uploadPixels(const Context& context, const Surface& surface, Preci
         textures.albedo =
             uploadTexture(context, VK_IMAGE_TYPE_2D, extent, full ? kFloatFormat : kHalfFormat, albedoTexels(surface));
     }
+    if (!surface.horizon.empty()) {
+        textures.horizon =
+            uploadLayers(context, extent, static_cast<uint32_t>(surface.horizon.azimuths), surface.horizon.codes);
+    }
     return textures;
 }
 
@@ -70,7 +75,8 @@ TableTexture uploadTable(const Context& context, const BrdfTable& table)
         texels[i] = glm::vec4(table.values[i], table.confidence[i]);
     }
     const glm::uvec3 size(table.size);
-    return {uploadTexture(context, VK_IMAGE_TYPE_3D, {size.x, size.y, size.z}, kFloatFormat, texels), table.domain};
+    return {uploadTexture(context, VK_IMAGE_TYPE_3D, {size.x, size.y, size.z}, kFloatFormat, texels), table.domain,
+            knowsCoverage(table)};
 }
 
 } // namespace nacre

@@ -15,18 +15,21 @@ struct PixelTextures {
     // full: xyz, w = confidence, all 0 without data. compact: packed. Where the surface is plain, pixels without its
     // material count as without data.
     Texture normals;
-    Texture albedo; // rgb, w = material index; empty where the surface is plain
-    VkDeviceSize bytes() const { return normals.bytes() + albedo.bytes(); }
+    Texture albedo;  // rgb, w = material index; empty where the surface is plain
+    Texture horizon; // an array of azimuths; empty where nothing casts shadows
+    VkDeviceSize bytes() const { return normals.bytes() + albedo.bytes() + horizon.bytes(); }
 };
 
 // One material whose albedo factor is 1: the normals say it all.
 bool isPlain(const Surface& surface);
 
-PixelTextures uploadPixels(const Context& context, const Surface& surface, Precision precision);
+// The pixels of `surface`; `plain` says what isPlain does of the whole of which they are.
+PixelTextures uploadPixels(const Context& context, const Surface& surface, bool plain, Precision precision);
 
 struct TableTexture {
     Texture texture; // f in 1/sr, w = confidence
     TableDomain domain;
+    bool knowsCoverage = false;
 };
 
 TableTexture uploadTable(const Context& context, const BrdfTable& table);

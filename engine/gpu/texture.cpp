@@ -16,7 +16,7 @@ namespace nacre {
 namespace {
 
 constexpr VkImageSubresourceRange kWholeImage{
-    .aspectMask = VK_IMAGE_ASPECT_COLOR_BIT, .levelCount = 1, .layerCount = 1};
+    .aspectMask = VK_IMAGE_ASPECT_COLOR_BIT, .levelCount = 1, .layerCount = VK_REMAINING_ARRAY_LAYERS};
 
 void requireTableSize(const Context& context, VkExtent3D extent)
 {
@@ -38,7 +38,7 @@ VkImage createImage(VkDevice device, const Texture::Description& description)
                                  .format = description.format,
                                  .extent = description.extent,
                                  .mipLevels = 1,
-                                 .arrayLayers = 1,
+                                 .arrayLayers = std::max(1u, description.layers),
                                  .samples = VK_SAMPLE_COUNT_1_BIT,
                                  .tiling = VK_IMAGE_TILING_OPTIMAL,
                                  .usage = description.usage,
@@ -68,10 +68,12 @@ VkDeviceMemory allocateOnDevice(const Context& context, const VkMemoryRequiremen
 
 VkImageView createView(VkDevice device, VkImage image, const Texture::Description& description)
 {
-    const bool solid = description.type == VK_IMAGE_TYPE_3D;
+    const bool solid = description.type == VK_IMAGE_TYPE_3D, isArray = description.layers > 0;
     const VkImageViewCreateInfo info{.sType = VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO,
                                      .image = image,
-                                     .viewType = solid ? VK_IMAGE_VIEW_TYPE_3D : VK_IMAGE_VIEW_TYPE_2D,
+                                     .viewType = solid     ? VK_IMAGE_VIEW_TYPE_3D
+                                                 : isArray ? VK_IMAGE_VIEW_TYPE_2D_ARRAY
+                                                           : VK_IMAGE_VIEW_TYPE_2D,
                                      .format = description.format,
                                      .subresourceRange = kWholeImage};
     VkImageView view = VK_NULL_HANDLE;
@@ -92,8 +94,9 @@ template <class Texel> void copyToTexture(const Context& context, const Texture&
     std::memcpy(staging.mapped(), texels.data(), texels.size_bytes());
     context.run([&](VkCommandBuffer commands) {
         imageBarrier(commands, texture.image(), kUnused, kCopiedTo);
-        const VkBufferImageCopy copy{.imageSubresource = {.aspectMask = VK_IMAGE_ASPECT_COLOR_BIT, .layerCount = 1},
-                                     .imageExtent = texture.extent()};
+        const VkBufferImageCopy copy{
+            .imageSubresource = {.aspectMask = VK_IMAGE_ASPECT_COLOR_BIT, .layerCount = std::max(1u, texture.layers())},
+            .imageExtent = texture.extent()};
         vkCmdCopyBufferToImage(commands, staging.get(), texture.image(), kCopiedTo.layout, 1, &copy);
         imageBarrier(commands, texture.image(), kCopiedTo, kSampled);
     });
@@ -135,6 +138,17 @@ Texture uploadTexture(const Context& context, VkImageType type, VkExtent3D exten
         copyToTexture<uint32_t>(context, texture,
                                 packed(texels, [](const glm::vec4& t) { return glm::packSnorm2x16(glm::vec2(t)); }));
     }
+    return texture;
+}
+
+Texture uploadLayers(const Context& context, VkExtent3D extent, uint32_t layers, std::span<const uint8_t> texels)
+{
+    assert(texels.size() == size_t{extent.width} * extent.height * layers);
+    Texture texture(context, {.extent = extent,
+                              .format = kByteFormat,
+                              .usage = VK_IMAGE_USAGE_TRANSFER_DST_BIT | VK_IMAGE_USAGE_SAMPLED_BIT,
+                              .layers = layers});
+    copyToTexture(context, texture, texels);
     return texture;
 }
 

@@ -16,6 +16,9 @@ inline constexpr VkFormat kCodeFormat = VK_FORMAT_R8G8B8A8_UNORM; // codes of th
 // Two channels in [-1, 1].
 inline constexpr VkFormat kPackedNormalFormat = VK_FORMAT_R16G16_SNORM;
 
+// One channel in [0, 1].
+inline constexpr VkFormat kByteFormat = VK_FORMAT_R8_UNORM;
+
 // An image in device memory, without mip levels.
 class Texture {
 public:
@@ -24,6 +27,7 @@ public:
         VkExtent3D extent{}; // depth is 1 unless 3D
         VkFormat format = kFloatFormat;
         VkImageUsageFlags usage = 0;
+        uint32_t layers = 0; // of a 2D array; 0: it is none
     };
 
     Texture() = default;
@@ -34,6 +38,7 @@ public:
     VkImageView view() const { return view_.get(); }
     VkExtent3D extent() const { return description_.extent; }
     VkFormat format() const { return description_.format; }
+    uint32_t layers() const { return description_.layers; }
     VkDeviceSize bytes() const { return bytes_; } // of device memory
 
 private:
@@ -47,6 +52,9 @@ private:
 // A texture for shaders to read; its texels x fastest, then y, then z. Formats other than kFloatFormat are packed here.
 Texture uploadTexture(const Context& context, VkImageType type, VkExtent3D extent, VkFormat format,
                       std::span<const glm::vec4> texels);
+
+// A 2D array of kByteFormat for shaders to read, layer by layer. Throws Error beyond the device's limits.
+Texture uploadLayers(const Context& context, VkExtent3D extent, uint32_t layers, std::span<const uint8_t> texels);
 
 // A 2D texture to draw to and to read or copy from.
 Texture makeTarget(const Context& context, VkExtent3D extent, VkFormat format);
@@ -70,7 +78,8 @@ inline constexpr ImageUse kDiscarded{VK_IMAGE_LAYOUT_UNDEFINED, VK_PIPELINE_STAG
                                      VK_ACCESS_2_NONE};
 inline constexpr ImageUse kCopiedTo{VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, VK_PIPELINE_STAGE_2_COPY_BIT,
                                     VK_ACCESS_2_TRANSFER_WRITE_BIT};
-inline constexpr ImageUse kCopiedFrom{VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, VK_PIPELINE_STAGE_2_COPY_BIT,
+inline constexpr ImageUse kCopiedFrom{VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
+                                      VK_PIPELINE_STAGE_2_COPY_BIT | VK_PIPELINE_STAGE_2_BLIT_BIT,
                                       VK_ACCESS_2_TRANSFER_READ_BIT};
 inline constexpr ImageUse kSampled{VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT,
                                    VK_ACCESS_2_SHADER_SAMPLED_READ_BIT};

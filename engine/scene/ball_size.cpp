@@ -17,7 +17,7 @@ namespace nacre {
 namespace {
 
 constexpr std::array kRadianceSizes = {64, 128, 256, 512, 1024};
-constexpr std::array kDisplaySizes = {512, 1024, 2048};
+constexpr std::array kDisplaySizes = {320, 384, 512, 1024, 2048};
 constexpr int kProbeSide = 160; // of the picture of a sphere that is compared
 constexpr float kVisibleStep = 4.0f / 255;
 

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "engine/scene/brdf_models.h"
+#include "shared/coverage.h"
 
 namespace nacre {
 
@@ -15,9 +16,6 @@ BrdfFunction functionOf(const BrdfModel& model);
 // whole turn, light and view at most 87 degrees from the normal: beyond, BRDFs divide by cosines near 0. The same ones
 // every time (Halton's sequence). At most `count`.
 std::vector<LightView> comparisonConfigurations(size_t count);
-
-// Covered: a value whose confidence is at least this. Between texels of a table's border coverage falls from 1 to 0.
-inline constexpr float kCoveredConfidence = 0.5f;
 
 struct BrdfComparison {
     double psnr = 0;           // dB; values divided by the reference's 99th percentile and clipped to [0,1]

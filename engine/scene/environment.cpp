@@ -76,13 +76,6 @@ std::pair<Region, Region> halves(const Region& r, const EnergySums& sums, int he
     return {low, high};
 }
 
-glm::dvec3 directionOfPixel(const Image& radiance, int x, int y)
-{
-    const double longitude = kPi * (1 - 2 * (x + 0.5) / radiance.width);
-    const double latitude = kPi * (0.5 - (y + 0.5) / radiance.height);
-    return {std::sin(longitude) * std::cos(latitude), std::sin(latitude), std::cos(longitude) * std::cos(latitude)};
-}
-
 Light lightOfRegion(const Image& radiance, const Region& region, const EnergySums& sums)
 {
     glm::dvec3 centroid(0), irradiance(0);
@@ -90,7 +83,7 @@ Light lightOfRegion(const Image& radiance, const Region& region, const EnergySum
         for (int x = region.x0; x < region.x1; ++x) {
             const glm::dvec3 value = glm::dvec3(radiance.rgb(x, y)) * sums.solidAngle(y);
             irradiance += value;
-            centroid += (value.x + value.y + value.z) * directionOfPixel(radiance, x, y);
+            centroid += (value.x + value.y + value.z) * environmentDirection(radiance, x, y);
         }
     }
     const double size = glm::length(centroid);
@@ -98,6 +91,13 @@ Light lightOfRegion(const Image& radiance, const Region& region, const EnergySum
 }
 
 } // namespace
+
+glm::dvec3 environmentDirection(const Image& radiance, int x, int y)
+{
+    const double longitude = kPi * (1 - 2 * (x + 0.5) / radiance.width);
+    const double latitude = kPi * (0.5 - (y + 0.5) / radiance.height);
+    return {std::sin(longitude) * std::cos(latitude), std::sin(latitude), std::cos(longitude) * std::cos(latitude)};
+}
 
 Environment loadEnvironment(const std::filesystem::path& file)
 {

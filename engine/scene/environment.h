@@ -7,6 +7,9 @@
 
 namespace nacre {
 
+// Directional lights that stand for one, where nothing else is asked for.
+inline constexpr int kEnvironmentLights = 256;
+
 // Radiance from all directions as a latitude-longitude picture, as OpenEXR's envmaps have it: +y on top, +z (the
 // camera's side) in the middle of the width, +x (right of the camera) a quarter of the width to the left of it.
 struct Environment {
@@ -15,6 +18,9 @@ struct Environment {
 
 // EXR or HDR. Throws Error where the picture is not twice as wide as high, or has negative or infinite values.
 Environment loadEnvironment(const std::filesystem::path& file);
+
+// Unit, of the middle of a pixel of a latitude-longitude picture.
+glm::dvec3 environmentDirection(const Image& radiance, int x, int y);
 
 // At most `count` lights whose irradiances add up to the environment's: regions are halved, the one of most energy
 // first, where each half has half of it (after Debevec, A Median Cut Algorithm for Light Probe Sampling, 2005); a

@@ -9,16 +9,18 @@
 
 #include <fmt/format.h>
 
+#include "engine/scene/brdf_tabulation.h"
 #include "engine/scene/error.h"
 #include "engine/scene/merl_file.h"
 #include "engine/scene/rgl_brdf.h"
+#include "engine/scene/surface_material.h"
 
 namespace nacre {
 namespace {
 
-constexpr const char* kForms =
-    "lambert:R,G,B, ggx:diffuse=R,G,B;specular=R,G,B;alpha=A, merl-abc:NAME, merl-sgd:NAME, merl:FILE.binary, "
-    "rgl:FILE.bsdf, table:FILE.exr, or such a file";
+constexpr const char* kForms = "NAME.nacre[#MATERIAL], lambert:R,G,B, ggx:diffuse=R,G,B;specular=R,G,B;alpha=A, "
+                               "merl-abc:NAME, merl-sgd:NAME, merl:FILE.binary, "
+                               "rgl:FILE.bsdf, table:FILE.exr, or such a file";
 
 [[noreturn]] void refuse(const std::string& specification, const std::string& wrong, const std::string& expected)
 {
@@ -169,6 +171,9 @@ BrdfModel loadMeasured(const std::string& kind, const std::filesystem::path& fil
 
 NamedBrdf parseMaterial(const std::string& specification, const std::filesystem::path& fitsFolder)
 {
+    if (auto found = loadSurfaceMaterial(specification)) {
+        return {specification, std::make_shared<const BrdfTable>(std::move(found->material.table))};
+    }
     size_t colon = specification.find(':');
     std::string kind = specification.substr(0, colon);
     std::string rest = colon == std::string::npos ? "" : specification.substr(colon + 1);
@@ -190,6 +195,21 @@ NamedBrdf parseMaterial(const std::string& specification, const std::filesystem:
         refuse(specification, "names no file", kForms);
     }
     return {specification, loadMeasured(measured, file)};
+}
+
+Material loadMaterial(const std::string& specification, const std::filesystem::path& fitsFolder, int threads)
+{
+    if (auto found = loadSurfaceMaterial(specification)) {
+        return std::move(found->material);
+    }
+    const NamedBrdf named = parseMaterial(specification, fitsFolder);
+    if (const BrdfTable* table = tableOf(named.model)) {
+        return {named.name, *table, {}};
+    }
+    Material material{named.name, tabulatedBrdf(named.model, kFullTableSize, {kHalfDifference, kHalfPi}, threads), {}};
+    // It is known wherever it is asked; texels below the horizon only help to interpolate those above it.
+    std::fill(material.table.confidence.begin(), material.table.confidence.end(), 1.0f);
+    return material;
 }
 
 std::filesystem::path fitsFolderFrom(const std::filesystem::path& option)

@@ -9,20 +9,25 @@
 namespace nacre {
 namespace {
 
-glm::vec3 radianceOfNormal(const BrdfTable& table, const Scene& scene, const glm::vec3& n)
+// `lookups`: horizonLookup of each light.
+glm::vec3 radianceUnderLights(const BrdfTable& table, const Scene& scene, std::span<const glm::vec4> lookups,
+                              size_t pixel)
 {
+    const glm::vec3& n = scene.surface.normals.normals[pixel];
     glm::vec3 sum(0);
-    for (const Light& light : scene.lights) {
+    for (size_t i = 0; i < scene.lights.size(); ++i) {
+        const Light& light = scene.lights[i];
         const float nDotL = glm::dot(n, light.direction);
         if (nDotL > 0) {
             const glm::vec3 f = evaluateTable(table, n, light.direction, scene.view).value;
-            sum += radianceFromBrdf(f, light.irradiance, nDotL);
+            sum +=
+                visibilityOf(scene.surface.horizon, lookups[i], pixel) * radianceFromBrdf(f, light.irradiance, nDotL);
         }
     }
     return sum;
 }
 
-glm::vec3 radianceOfPixel(const Scene& scene, size_t pixel)
+glm::vec3 radianceOfPixel(const Scene& scene, std::span<const glm::vec4> lookups, size_t pixel)
 {
     const Surface& surface = scene.surface;
     const glm::vec3& n = surface.normals.normals[pixel];
@@ -32,7 +37,7 @@ glm::vec3 radianceOfPixel(const Scene& scene, size_t pixel)
     if (!hasNormal || !hasMaterial || glm::dot(n, scene.view) <= 0) {
         return glm::vec3(0);
     }
-    const glm::vec3 radiance = radianceOfNormal(surface.materials[label].table, scene, n);
+    const glm::vec3 radiance = radianceUnderLights(surface.materials[label].table, scene, lookups, pixel);
     const float* a = surface.albedo.values.empty() ? nullptr : &surface.albedo.values[3 * pixel];
     return a == nullptr ? radiance : glm::vec3(a[0], a[1], a[2]) * radiance;
 }
@@ -43,9 +48,13 @@ Frame renderReference(const Scene& scene, int threads)
 {
     const NormalMap& normals = scene.surface.normals;
     Frame frame(normals.width, normals.height, 3);
+    std::vector<glm::vec4> lookups;
+    for (const Light& light : scene.lights) {
+        lookups.push_back(horizonLookup(light.direction, scene.surface.horizon.azimuths));
+    }
     parallelFor(frame.pixelCount(), 1024, threads, [&](size_t first, size_t last) {
         for (size_t pixel = first; pixel < last; ++pixel) {
-            const glm::vec3 radiance = radianceOfPixel(scene, pixel);
+            const glm::vec3 radiance = radianceOfPixel(scene, lookups, pixel);
             for (int c = 0; c < 3; ++c) {
                 frame.values[3 * pixel + c] = radiance[c];
             }

@@ -1,6 +1,7 @@
 #include "engine/scene/surface.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -32,6 +33,12 @@ Json describe(const Surface& surface)
     if (!surface.albedo.values.empty()) {
         json["albedo"] = "albedo.exr";
     }
+    if (!surface.height.values.empty()) {
+        json["heights"] = "height.exr"; // "height" is the picture's
+    }
+    if (!surface.parts.empty()) {
+        json["parts"] = surface.parts;
+    }
     for (const CapturedLight& light : surface.lights) {
         json["lights"].push_back({{"photograph", light.photograph},
                                   {"direction", jsonOf(light.light.direction)},
@@ -57,11 +64,13 @@ std::vector<uint8_t> loadLabels(const fs::path& file, const Surface& surface)
                     fmt::format("{}x{} with 1, as normals.exr", surface.normals.width, surface.normals.height));
     }
     std::vector<uint8_t> labels(image.values.size());
+    const bool ofMaterials = !surface.materials.empty() || surface.parts.empty();
+    const size_t count = ofMaterials ? surface.materials.size() : surface.parts.size();
     for (size_t i = 0; i < labels.size(); ++i) {
         labels[i] = static_cast<uint8_t>(image.values[i] * 255.0f + 0.5f);
-        if (labels[i] != Surface::kNoMaterial && labels[i] >= surface.materials.size()) {
-            throw Error(file, fmt::format("names material {}", labels[i]),
-                        fmt::format("indices below {}, or 255 for none", surface.materials.size()));
+        if (labels[i] != Surface::kNoMaterial && labels[i] >= count) {
+            throw Error(file, fmt::format("names {} {}", ofMaterials ? "material" : "part", labels[i]),
+                        fmt::format("indices below {}, or 255 for none", count));
         }
     }
     return labels;
@@ -77,6 +86,28 @@ void checkHeader(const fs::path& file, const Json& json)
     }
 }
 
+// A picture beside surface.json that has the normals' size.
+Image loadBeside(const fs::path& folder, const Json& name, const Surface& surface, int channels)
+{
+    const fs::path file = folder / name.get<std::string>();
+    Image image = loadImage(file);
+    const NormalMap& normals = surface.normals;
+    if (image.width != normals.width || image.height != normals.height || image.channels != channels) {
+        throw Error(file, "has another shape than the normals",
+                    fmt::format("{}x{} with {} channel(s)", normals.width, normals.height, channels));
+    }
+    return image;
+}
+
+Image loadHeights(const fs::path& folder, const Json& name, const Surface& surface)
+{
+    Image height = loadBeside(folder, name, surface, 1);
+    if (!std::all_of(height.values.begin(), height.values.end(), [](float z) { return std::isfinite(z); })) {
+        throw Error(folder / name.get<std::string>(), "has a value that is no number", "finite heights in pixels");
+    }
+    return height;
+}
+
 Surface surfaceOf(const fs::path& folder, const Json& json)
 {
     Surface surface;
@@ -86,13 +117,15 @@ Surface surfaceOf(const fs::path& folder, const Json& json)
     for (const Json& material : json.at("materials")) {
         surface.materials.push_back(materials.load(material));
     }
+    if (json.contains("parts")) {
+        surface.parts = json.at("parts").get<std::vector<std::string>>();
+    }
     surface.labels = loadLabels(folder / json.at("labels").get<std::string>(), surface);
     if (json.contains("albedo")) {
-        surface.albedo = loadImage(folder / json.at("albedo").get<std::string>());
-        if (surface.albedo.width != surface.normals.width || surface.albedo.height != surface.normals.height ||
-            surface.albedo.channels != 3) {
-            throw Error(folder / "albedo.exr", "has another shape than the normals", "RGB of the same size");
-        }
+        surface.albedo = loadBeside(folder, json.at("albedo"), surface, 3);
+    }
+    if (json.contains("heights")) {
+        surface.height = loadHeights(folder, json.at("heights"), surface);
     }
     for (const Json& light : json.at("lights")) {
         surface.lights.push_back({light.at("photograph").get<std::string>(),
@@ -116,6 +149,9 @@ void saveSurface(const fs::path& folder, const Surface& surface, bool replace)
     if (!surface.albedo.values.empty()) {
         saveImage(to / "albedo.exr", surface.albedo, PixelType::float32);
     }
+    if (!surface.height.values.empty()) {
+        saveImage(to / "height.exr", surface.height, PixelType::float32);
+    }
     Json json = describe(surface);
     MaterialFolder materials(to);
     for (size_t i = 0; i < surface.materials.size(); ++i) {
@@ -129,7 +165,7 @@ Surface loadSurface(const fs::path& folder)
 {
     const fs::path file = folder / "surface.json";
     if (!fs::is_directory(folder) || !fs::exists(file)) {
-        throw Error(folder, "is not a surface", "a folder NAME.nacre that `nacre acquire` wrote");
+        throw Error(folder, "is not a surface", "a folder NAME.nacre that `nacre acquire` or `nacre target` wrote");
     }
     try {
         const Json json = Json::parse(readTextFile(file));
@@ -154,6 +190,14 @@ Surface transferredSurface(const NormalMap& normals, const Material& material)
     return surface;
 }
 
+Surface transferredSurface(const Surface& target, const Material& material)
+{
+    Surface surface = transferredSurface(target.normals, material);
+    surface.height = target.height;
+    surface.horizon = target.horizon;
+    return surface;
+}
+
 Surface fittedSurface(const Surface& surface, int width, int height)
 {
     Surface fitted = surface;
@@ -161,12 +205,21 @@ Surface fittedSurface(const Surface& surface, int width, int height)
     fitted.labels.assign(fitted.normals.normals.size(), Surface::kNoMaterial);
     const bool hasAlbedo = !surface.albedo.values.empty();
     fitted.albedo = hasAlbedo ? Image(width, height, 3, 1.0f) : Image();
+    const bool hasHeight = !surface.height.values.empty();
+    fitted.height = hasHeight ? Image(width, height, 1) : Image();
+    // Heights are in pixels, which shrink and grow with the picture.
+    const float scale = std::min(static_cast<float>(width) / static_cast<float>(surface.normals.width),
+                                 static_cast<float>(height) / static_cast<float>(surface.normals.height));
     const std::vector<int64_t> from = fittedPixels(surface.normals.width, surface.normals.height, width, height);
+    fitted.horizon = pickedHorizon(surface.horizon, from, width, height);
     for (size_t i = 0; i < from.size(); ++i) {
         if (from[i] < 0) {
             continue;
         }
         fitted.labels[i] = surface.labels[from[i]];
+        if (hasHeight) {
+            fitted.height.values[i] = scale * surface.height.values[from[i]];
+        }
         if (hasAlbedo) {
             std::copy_n(&surface.albedo.values[3 * from[i]], 3, &fitted.albedo.values[3 * i]);
         }

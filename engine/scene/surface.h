@@ -7,6 +7,7 @@
 
 #include "engine/scene/brdf_table.h"
 #include "engine/scene/compact_brdf.h"
+#include "engine/scene/horizon.h"
 #include "engine/scene/image.h"
 #include "engine/scene/light.h"
 #include "engine/scene/normal_map.h"
@@ -30,7 +31,8 @@ struct CapturedLight {
     Light light;
 };
 
-// What an acquisition writes: a folder NAME.nacre.
+// What an acquisition or nacre target writes: a folder NAME.nacre. A target has no materials; its labels then are
+// indices into parts.
 struct Surface {
     static constexpr uint8_t kNoMaterial = 255;
 
@@ -38,19 +40,28 @@ struct Surface {
     Image albedo;                // RGB factor, mean 1 over each material's pixels; empty = 1 everywhere
     std::vector<uint8_t> labels; // index into materials per pixel, kNoMaterial outside
     std::vector<Material> materials;
+    std::vector<std::string> parts; // names of a target's labels; empty where materials name them
+    // One channel: pixels of the map towards the viewer, up to a constant for each connected piece, 0 where there is no
+    // normal. Empty: not known.
+    Image height;
+    HorizonMap horizon; // of the height, for cast shadows; empty: lights reach all that faces them. In no file
     std::vector<CapturedLight> lights;
     RadianceScale scale = RadianceScale::relative;
 };
 
-// surface.json, normals.exr, labels.png, albedo.exr (where estimated), material_N.exr and material_N_coverage.exr.
+// surface.json, normals.exr, labels.png, albedo.exr (where estimated), height.exr (where known), material_N.exr and
+// material_N_coverage.exr.
 // Written into a temporary folder, then renamed; an existing folder is refused without `replace`.
 void saveSurface(const std::filesystem::path& folder, const Surface& surface, bool replace);
 Surface loadSurface(const std::filesystem::path& folder);
 
 // The surface of `normals` wholly made of one material, albedo 1: material transfer.
 Surface transferredSurface(const NormalMap& normals, const Material& material);
+// The same of another surface's normals, height and horizon.
+Surface transferredSurface(const Surface& target, const Material& material);
 
-// The same surface in a picture of another size: fittedNormalMap, with albedo factors and labels alike.
+// The same surface in a picture of another size: fittedNormalMap, with albedo factors, labels, height and horizon
+// alike.
 Surface fittedSurface(const Surface& surface, int width, int height);
 
 } // namespace nacre

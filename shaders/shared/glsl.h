@@ -16,6 +16,7 @@ using glm::cos;
 using glm::cross;
 using glm::dot;
 using glm::exp;
+using glm::fract;
 using glm::inversesqrt;
 using glm::ivec2;
 using glm::ivec3;

@@ -1,15 +1,21 @@
 // What the shaders and the renderer agree on: bindings, push constants, the light. Scalar layout.
 #ifndef NACRE_LAYOUT_H
 #define NACRE_LAYOUT_H
+#include "false_colour.h"
+#include "horizon.h"
 #include "light_frame.h"
 NACRE_SHARED_BEGIN
 
 // Sampled 2D: xyz unit normal in the camera frame, w confidence (all 0 = no data); or packed, see ball.h.
 const int kBindingNormals = 0;
-const int kBindingAlbedo = 1; // sampled 2D: RGB albedo factor, w material index as a float, 255 = none
-const int kBindingTable = 2;  // sampled 3D: BRDF in 1/sr, w coverage
-const int kBindingLights = 3; // uniform buffer of kLightsPerGroup LightFrame
-const int kBindingInput = 4;  // sampled 2D: what an earlier pass drew (radiance, or balls)
+const int kBindingAlbedo = 1;  // sampled 2D: RGB albedo factor, w material index as a float, 255 = none
+const int kBindingTable = 2;   // sampled 3D: BRDF in 1/sr, w coverage
+const int kBindingLights = 3;  // uniform buffer of kLightsPerGroup LightFrame
+const int kBindingInput = 4;   // sampled 2D: what an earlier pass drew (radiance, or balls)
+const int kBindingHorizon = 5; // sampled 2D array: a layer an azimuth, codes of horizon.h / 255
+
+// Alpha of radiance is cleared to 1 and counts up by what asks for unmeasured directions.
+const float kUnmeasuredAlpha = 1.5f;
 
 // Lights of one draw. The loop over them is unrolled, so that their fields are loaded once for all pixels.
 const int kLightsPerGroup = 4;
@@ -19,13 +25,19 @@ const int kConstantLightCount = 0;  // direct.frag: lights of the group, 1 to kL
 const int kConstantCoordinates = 1; // direct.frag: of the table
 const int kConstantOneMaterial = 2; // direct.frag: all pixels have it and albedo 1
 const int kConstantPacked = 3;      // direct.frag: normals are packed
-const int kConstantModulated = 0;   // ball.frag, ball_display.frag, floor.frag: with albedo factors and labels
+const int kConstantCoverage = 4;    // direct.frag: counts what asks for unmeasured directions
+const int kConstantShadows = 5;     // direct.frag: the height casts shadows
+const int kConstantModulated = 0;   // ball.frag, ball_display.frag, floor.frag, false_colour.frag: factors and labels
 const int kConstantToneCurve = 1;   // ball.frag, ball_display.frag, display.frag
+const int kConstantHatched = 0;     // display.frag: stripes where something unmeasured was asked for
+const int kConstantShow = 1;        // false_colour.frag
 
 struct DirectConstants {
-    vec4 view;      // xyz unit, towards the viewer; w unused
-    vec4 tableSize; // xyz texels of the 3D table; w = largest thetaD on its grid
-    int material;   // index that this pass shades
+    vec4 view;                     // xyz unit, towards the viewer; w unused
+    vec4 tableSize;                // xyz texels of the 3D table; w = largest thetaD on its grid
+    int material;                  // index that this pass shades
+    int firstRow;                  // of the surface, in the target's row 0
+    vec4 horizon[kLightsPerGroup]; // horizonLookup of each light, where there are shadows
 };
 
 // Of ball.frag: balls of one size lie side by side in one texture, material 0 at the top left.
@@ -44,7 +56,8 @@ struct BallDisplayConstants {
 };
 
 struct DisplayConstants {
-    float gain; // 2^exposure
+    float gain;   // 2^exposure
+    int firstRow; // of the picture, in the radiance's row 0
 };
 
 NACRE_SHARED_END

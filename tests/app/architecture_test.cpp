@@ -17,11 +17,17 @@ struct Rule {
 const Rule kRules[] = {
     {"shaders/shared", {"engine/", "acquisition/", "OpenImageIO", "vulkan", "Eigen", "nanoflann"}},
     {"engine/scene",
-     {"vulkan", "GLFW", "imgui", "Eigen", "nanoflann", "engine/gpu", "acquisition/", "assets/", "app/"}},
-    {"engine/gpu", {"GLFW", "imgui", "OpenImageIO", "acquisition/", "assets/", "app/", "Eigen", "nanoflann"}},
-    {"acquisition", {"vulkan", "GLFW", "imgui", "OpenImageIO", "engine/gpu", "assets/", "app/"}},
+     {"vulkan", "GLFW", "imgui", "Eigen", "nanoflann", "engine/gpu", "engine/target", "assimp", "acquisition/",
+      "assets/", "app/"}},
+    {"engine/gpu",
+     {"engine/target", "assimp", "GLFW", "imgui", "OpenImageIO", "acquisition/", "assets/", "app/", "Eigen",
+      "nanoflann"}},
+    {"engine/target", {"GLFW", "imgui", "OpenImageIO", "acquisition/", "assets/", "app/", "Eigen", "nanoflann"}},
+    {"acquisition",
+     {"assimp", "engine/target", "vulkan", "GLFW", "imgui", "OpenImageIO", "engine/gpu", "assets/", "app/"}},
     {"evaluation", {"GLFW", "imgui", "OpenImageIO", "app/"}},
-    {"assets", {"vulkan", "GLFW", "imgui", "OpenImageIO", "engine/gpu", "acquisition/", "app/"}},
+    {"assets",
+     {"assimp", "engine/target", "vulkan", "GLFW", "imgui", "OpenImageIO", "engine/gpu", "acquisition/", "app/"}},
 };
 
 bool isSource(const fs::path& file)

@@ -92,7 +92,7 @@ TEST_F(BrdfCommandTest, KnowsTheMaterialsOfASurface)
     EXPECT_NEAR(json["table"]["thetaDMaxDegrees"].get<double>(), 0.4 * 180 / M_PI, 1e-3);
     EXPECT_EQ(json["table"]["covered"], 1);
     EXPECT_LT(json["against"]["percentile95RelativeError"].get<double>(), 1e-4);
-    expectRefused({"brdf", path("s.nacre"), "--index", "3"}, 2, {"holds no material 3", "--index 0 to 0"});
+    expectRefused({"brdf", path("s.nacre") + "#3"}, 2, {"holds no material #3", "#1 (chalk)"});
 }
 
 TEST_F(BrdfCommandTest, ReadsTheDatabases)

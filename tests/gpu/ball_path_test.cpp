@@ -6,6 +6,7 @@
 
 #include "engine/gpu/renderer.h"
 #include "engine/scene/brdf_tabulation.h"
+#include "engine/scene/code_difference.h"
 #include "engine/scene/error.h"
 #include "engine/scene/measures.h"
 #include "engine/scene/reference.h"
@@ -23,20 +24,8 @@ struct PictureDifference {
 
 PictureDifference difference(const Image& a, const Image& b)
 {
-    PictureDifference found;
     const std::vector<uint8_t> all(a.pixelCount(), 1);
-    found.psnr = picturePsnr(a, b, all);
-    for (size_t i = 0; i < a.pixelCount(); ++i) {
-        float worst = 0;
-        for (size_t c = 0; c < 3; ++c) {
-            worst = std::max(worst, std::abs(a.values[3 * i + c] - b.values[3 * i + c]));
-        }
-        found.visibleShare += worst > 4.01f / 255;
-        found.anyShare += worst > 1.01f / 255;
-    }
-    found.visibleShare /= static_cast<double>(a.pixelCount());
-    found.anyShare /= static_cast<double>(a.pixelCount());
-    return found;
+    return {picturePsnr(a, b, all), codeDifference(a, b, 4).share(), codeDifference(a, b, 1).share()};
 }
 
 Scene ggxScene(float alpha, int width = 300, int height = 200)

@@ -105,5 +105,22 @@ TEST(Validation, IsHeard)
     EXPECT_NE(testing::internal::GetCapturedStderr().find("vulkan validation:"), std::string::npos);
 }
 
+// The same for what only the synchronization checks see: two copies into one place without a barrier between them.
+TEST(Validation, HearsMissingBarriers)
+{
+    setenv("NACRE_VALIDATION", "1", 1);
+    const Context context;
+    const Buffer from(context, 64, VK_BUFFER_USAGE_TRANSFER_SRC_BIT);
+    const Buffer into(context, 64, VK_BUFFER_USAGE_TRANSFER_DST_BIT);
+    testing::internal::CaptureStderr();
+    context.run([&](VkCommandBuffer commands) {
+        const VkBufferCopy all{.srcOffset = 0, .dstOffset = 0, .size = 64};
+        vkCmdCopyBuffer(commands, from.get(), into.get(), 1, &all);
+        vkCmdCopyBuffer(commands, from.get(), into.get(), 1, &all);
+    });
+    EXPECT_GT(context.validationMessages(), 0);
+    EXPECT_NE(testing::internal::GetCapturedStderr().find("SYNC-HAZARD-WRITE-AFTER-WRITE"), std::string::npos);
+}
+
 } // namespace
 } // namespace nacre::test

@@ -1,33 +1,58 @@
 #pragma once
 #include <cstdlib>
 #include <memory>
+#include <string>
 
 #include <gtest/gtest.h>
 
 #include "engine/gpu/context.h"
+#include "engine/scene/error.h"
 
 namespace nacre::test {
 
-// Tests on one validated device; a message of the validation layer fails the test that caused it.
+// Tests on one validated device; a message of the validation layer fails the test that caused it. Where there is no
+// device they fail and say why: a renderer whose tests were skipped has not been tested.
 class GpuTest : public testing::Test {
 protected:
-    static void SetUpTestSuite()
+    static void SetUpTestSuite() { open({}); }
+    static void TearDownTestSuite()
+    {
+        // What is left over is only heard when the device goes, after the last test.
+        testing::internal::CaptureStderr();
+        context.reset();
+        const std::string heard = testing::internal::GetCapturedStderr();
+        EXPECT_EQ(heard.find("vulkan validation:"), std::string::npos) << heard;
+    }
+
+    // `selector` as --device has it.
+    static void open(const std::string& selector)
     {
         setenv("NACRE_VALIDATION", "1", 1);
-        context = std::make_unique<Context>();
+        try {
+            context = std::make_unique<Context>(selector);
+        } catch (const Error& error) {
+            whyNoContext_ = error.what();
+        }
     }
-    static void TearDownTestSuite() { context.reset(); }
 
     void SetUp() override
     {
+        ASSERT_TRUE(context) << whyNoContext_;
         ASSERT_TRUE(context->validates());
         messagesBefore_ = context->validationMessages();
     }
-    void TearDown() override { EXPECT_EQ(context->validationMessages(), messagesBefore_) << "see stderr"; }
+    void TearDown() override
+    {
+        EXPECT_FALSE(IsSkipped()) << "tests of the renderer run or fail";
+        if (context) {
+            EXPECT_EQ(context->validationMessages(), messagesBefore_) << "see stderr";
+        }
+    }
 
     static inline std::unique_ptr<Context> context;
 
 private:
+    static inline std::string whyNoContext_;
     int messagesBefore_ = 0;
 };
 

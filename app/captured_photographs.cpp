@@ -1,0 +1,166 @@
+#include "app/captured_photographs.h"
+
+#include <algorithm>
+#include <array>
+#include <memory>
+
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
+
+#include "acquisition/capture/observations.h"
+#include "acquisition/normals/verdicts.h"
+#include "engine/scene/error.h"
+#include "engine/scene/measures.h"
+#include "engine/scene/surface.h"
+
+namespace nacre {
+
+namespace {
+
+constexpr size_t kBlockBytes = size_t{32} << 20; // small enough that progress is seen
+constexpr size_t kMostBytes = size_t{2} << 30;   // that a window may hold
+constexpr size_t kPeakValues = 1 << 20;          // of all, evenly, for the percentile
+
+struct Held {
+    Surface surface;
+    Capture capture;
+    Observations all;
+    std::vector<size_t> photographOf; // a captured light; the count of photographs where there is none
+    double peak = 1;
+};
+
+void require(const Held& held, const std::filesystem::path& folder)
+{
+    const NormalMap& normals = held.surface.normals;
+    if (held.capture.width != normals.width || held.capture.height != normals.height) {
+        throw Error(folder, fmt::format("has photographs of {} x {} pixels", held.capture.width, held.capture.height),
+                    fmt::format("{} x {} as the surface that was measured from them", normals.width, normals.height));
+    }
+    const size_t bytes = held.capture.maskPixels * held.capture.photographs.size() * sizeof(glm::vec3);
+    if (bytes > kMostBytes) {
+        throw Error(folder, fmt::format("takes {} MiB of memory", bytes >> 20),
+                    fmt::format("at most {} MiB, with \"scale\" or \"crop\" in capture.json", kMostBytes >> 20));
+    }
+}
+
+void append(Observations& all, const Observations& block)
+{
+    all.lightCount = block.lightCount;
+    all.pixels.insert(all.pixels.end(), block.pixels.begin(), block.pixels.end());
+    all.radiance.insert(all.radiance.end(), block.radiance.begin(), block.radiance.end());
+    all.saturated.insert(all.saturated.end(), block.saturated.begin(), block.saturated.end());
+}
+
+std::vector<size_t> photographsOfLights(const Surface& surface, const Capture& capture)
+{
+    std::vector<size_t> found;
+    for (const CapturedLight& light : surface.lights) {
+        const auto at = std::find_if(capture.photographs.begin(), capture.photographs.end(),
+                                     [&](const Photograph& p) { return p.name == light.photograph; });
+        found.push_back(static_cast<size_t>(at - capture.photographs.begin()));
+    }
+    return found;
+}
+
+double peakOf(const Observations& all)
+{
+    std::vector<float> values;
+    const size_t step = std::max<size_t>(1, 3 * all.radiance.size() / kPeakValues);
+    for (size_t i = 0; i < 3 * all.radiance.size(); i += step) {
+        values.push_back(all.radiance[i / 3][static_cast<int>(i % 3)]);
+    }
+    return values.empty() ? 1.0 : std::max(quantile(values, 0.99), 1e-9f);
+}
+
+void load(Held& held, const std::filesystem::path& captureFolder, const std::filesystem::path& surfaceFolder,
+          const std::function<void(float)>& progress, const std::atomic<bool>& isCancelled)
+{
+    held.surface = loadSurface(surfaceFolder);
+    held.capture = loadCapture(captureFolder);
+    require(held, captureFolder);
+    ObservationReader reader(held.capture, 0, kBlockBytes);
+    for (Observations block; !isCancelled && reader.next(block);) {
+        append(held.all, block);
+        progress(static_cast<float>(held.all.pixels.size()) / static_cast<float>(held.capture.maskPixels));
+    }
+    held.photographOf = photographsOfLights(held.surface, held.capture);
+    held.peak = peakOf(held.all);
+}
+
+Image pictureUnder(const Held& held, size_t light)
+{
+    Image picture(held.capture.width, held.capture.height, 3);
+    const size_t photograph = held.photographOf.at(light);
+    if (photograph >= held.all.lightCount) {
+        return picture;
+    }
+    for (size_t p = 0; p < held.all.pixels.size(); ++p) {
+        const glm::vec3& radiance = held.all.radianceOf(p)[photograph];
+        for (size_t c = 0; c < 3; ++c) {
+            picture.values[3 * held.all.pixels[p] + c] = radiance[static_cast<int>(c)];
+        }
+    }
+    return picture;
+}
+
+const char* nameOf(Verdict verdict)
+{
+    constexpr std::array kNames = {"used", "shadow", "highlight", "saturated"};
+    return kNames[static_cast<size_t>(verdict)];
+}
+
+float meanOf(const glm::vec3& rgb)
+{
+    return (rgb.r + rgb.g + rgb.b) / 3;
+}
+
+std::vector<PixelObservation> observationsAt(const Held& held, size_t pixel)
+{
+    const auto found = std::lower_bound(held.all.pixels.begin(), held.all.pixels.end(), pixel);
+    const Surface& surface = held.surface;
+    const uint8_t label = surface.labels[pixel];
+    if (found == held.all.pixels.end() || *found != pixel || label >= surface.materials.size()) {
+        return {};
+    }
+    const auto p = static_cast<size_t>(found - held.all.pixels.begin());
+    const glm::vec3& n = surface.normals.normals[pixel];
+    glm::vec3 a(1);
+    for (int c = 0; c < 3 && !surface.albedo.values.empty(); ++c) {
+        a[c] = surface.albedo.values[3 * pixel + static_cast<size_t>(c)];
+    }
+    std::vector<PixelObservation> observations;
+    std::vector<float> observed, predicted;
+    std::vector<uint8_t> saturated;
+    for (size_t i = 0; i < surface.lights.size(); ++i) {
+        if (held.photographOf[i] >= held.all.lightCount) {
+            continue;
+        }
+        const Light& light = surface.lights[i].light;
+        const float nDotL = glm::dot(n, light.direction);
+        const glm::vec3 f = evaluateTable(surface.materials[label].table, n, light.direction, {0, 0, 1}).value;
+        observed.push_back(meanOf(held.all.radianceOf(p)[held.photographOf[i]] / light.irradiance));
+        predicted.push_back(nDotL > 0 ? meanOf(a * f) * nDotL : 0.0f);
+        saturated.push_back(held.all.saturatedOf(p)[held.photographOf[i]]);
+        observations.push_back({nDotL, observed.back(), predicted.back(), {}});
+    }
+    std::vector<Verdict> verdicts(observations.size());
+    judge(observed, predicted, verdicts);
+    for (size_t i = 0; i < observations.size(); ++i) {
+        observations[i].verdict = nameOf(saturated[i] ? Verdict::saturated : verdicts[i]);
+    }
+    return observations;
+}
+
+} // namespace
+
+Photographs photographsOf(const std::filesystem::path& capture, const std::filesystem::path& surface)
+{
+    const auto held = std::make_shared<Held>();
+    return {.load = [=](const auto& progress,
+                        const auto& isCancelled) { load(*held, capture, surface, progress, isCancelled); },
+            .picture = [=](size_t light) { return pictureUnder(*held, light); },
+            .observations = [=](size_t pixel) { return observationsAt(*held, pixel); },
+            .peak = [=] { return held->peak; }};
+}
+
+} // namespace nacre

@@ -1,0 +1,242 @@
+#include "engine/target/mesh_raster.h"
+
+#include <algorithm>
+#include <map>
+#include <optional>
+
+#include "engine/gpu/buffer.h"
+#include "engine/gpu/pass.h"
+#include "engine/scene/parallel_for.h"
+#include "engine/target/mesh_pipeline.h"
+#include "engine/target/mesh_resolve.h"
+#include "engine/target/normal_map_scale.h"
+#include "shared/mesh_layout.h"
+
+namespace nacre {
+namespace {
+
+constexpr size_t kTrianglesPerUpload = 1 << 17;    // 18 MiB of vertices
+constexpr VkDeviceSize kLargestTarget = 512 << 20; // bytes of samples
+
+// The depth buffer's part in a barrier, before its first use and between uploads.
+void depthBarrier(VkCommandBuffer commands, const DepthBuffer& depth, bool first)
+{
+    const VkPipelineStageFlags2 tests =
+        VK_PIPELINE_STAGE_2_EARLY_FRAGMENT_TESTS_BIT | VK_PIPELINE_STAGE_2_LATE_FRAGMENT_TESTS_BIT;
+    const VkAccessFlags2 uses =
+        VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_READ_BIT | VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT;
+    const VkImageMemoryBarrier2 barrier{
+        .sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2,
+        .srcStageMask = first ? VK_PIPELINE_STAGE_2_NONE : tests,
+        .srcAccessMask = first ? VK_ACCESS_2_NONE : uses,
+        .dstStageMask = tests,
+        .dstAccessMask = uses,
+        .oldLayout = first ? VK_IMAGE_LAYOUT_UNDEFINED : VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL,
+        .newLayout = VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL,
+        .srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
+        .dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
+        .image = depth.image(),
+        .subresourceRange = {.aspectMask = VK_IMAGE_ASPECT_DEPTH_BIT, .levelCount = 1, .layerCount = 1}};
+    const VkDependencyInfo dependency{
+        .sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO, .imageMemoryBarrierCount = 1, .pImageMemoryBarriers = &barrier};
+    vkCmdPipelineBarrier2(commands, &dependency);
+}
+
+Texture uploadNormalMap(const Context& context, const NormalMap& map)
+{
+    std::vector<glm::vec4> texels(map.normals.size());
+    for (size_t i = 0; i < texels.size(); ++i) {
+        // Where the map has nothing the mesh's own normal stays.
+        texels[i] = map.confidence[i] > 0 ? glm::vec4(map.normals[i], 0) : glm::vec4(0, 0, 1, 0);
+    }
+    const VkExtent3D extent{static_cast<uint32_t>(map.width), static_cast<uint32_t>(map.height), 1};
+    return uploadTexture(context, VK_IMAGE_TYPE_2D, extent, kFloatFormat, texels);
+}
+
+// One target and what is drawn to it.
+class MeshRaster {
+public:
+    MeshRaster(const Context& context, const Mesh& mesh, const MeshView& view, int samplesPerSide)
+        : context_(context), mesh_(mesh), view_(view),
+          samplesPerSide_(samplesPerSide), extent_{static_cast<uint32_t>(view.width * samplesPerSide),
+                                                   static_cast<uint32_t>(view.height * samplesPerSide), 1},
+          target_(makeTarget(context, extent_, kFloatFormat)), depth_(context, extent_),
+          vertices_(context, kTrianglesPerUpload * 3 * sizeof(MeshVertex), VK_BUFFER_USAGE_VERTEX_BUFFER_BIT),
+          nearest_(makeSampler(context, VK_FILTER_NEAREST)), noMap_(uploadNormalMap(context, NormalMap(1, 1))),
+          plain_(context, false)
+    {
+    }
+
+    void drawParts()
+    {
+        for (size_t part = 0; part < mesh_.parts.size(); ++part) {
+            const MeshPart& drawn = mesh_.parts[part];
+            const Texture* map = normalMapOf(drawn);
+            const size_t label = std::min<size_t>(part, Surface::kNoMaterial - 1);
+            for (size_t first = 0; first < drawn.indexCount; first += 3 * kTrianglesPerUpload) {
+                const size_t count = std::min(3 * kTrianglesPerUpload, drawn.indexCount - first);
+                fillVertices(drawn.firstIndex + first, count);
+                context_.run([&](VkCommandBuffer commands) {
+                    record(commands, static_cast<uint32_t>(count), static_cast<float>(label + 1), map);
+                });
+                isEmpty_ = false;
+            }
+        }
+    }
+
+    // x, y of the normal, height, label + 1 (0 = nothing) of each sample.
+    Buffer read()
+    {
+        const size_t samples = static_cast<size_t>(extent_.width) * extent_.height;
+        Buffer buffer(context_, samples * sizeof(glm::vec4), VK_BUFFER_USAGE_TRANSFER_DST_BIT);
+        context_.run([&](VkCommandBuffer commands) {
+            imageBarrier(commands, target_.image(), kDrawnTo, kCopiedFrom);
+            const VkBufferImageCopy copy{.imageSubresource = {.aspectMask = VK_IMAGE_ASPECT_COLOR_BIT, .layerCount = 1},
+                                         .imageExtent = extent_};
+            vkCmdCopyImageToBuffer(commands, target_.image(), kCopiedFrom.layout, buffer.get(), 1, &copy);
+            makeVisibleToHost(commands, buffer);
+        });
+        return buffer;
+    }
+
+private:
+    // Null: the part has none. Maps of several parts are uploaded once, at the size at which they are seen.
+    const Texture* normalMapOf(const MeshPart& part)
+    {
+        if (!part.normalMap) {
+            return nullptr;
+        }
+        if (!mapped_) {
+            mapped_.emplace(context_, true);
+        }
+        const auto [at, isNew] = maps_.try_emplace(part.normalMap.get());
+        if (isNew) {
+            const double samplesPerUnit = view_.pixelsPerUnit * samplesPerSide_;
+            at->second = uploadNormalMap(context_, seenNormalMap(mesh_, part, samplesPerUnit));
+        }
+        return &at->second;
+    }
+
+    void fillVertices(size_t firstIndex, size_t count)
+    {
+        auto* vertices = static_cast<MeshVertex*>(vertices_.mapped());
+        const glm::mat3 turn(view_.turn);
+        parallelFor(count, 1 << 14, 0, [&](size_t first, size_t last) {
+            for (size_t i = first; i < last; ++i) {
+                const uint32_t v = mesh_.indices[firstIndex + i];
+                const glm::dvec3 p = view_.pixelPoint(mesh_.positions[v]);
+                MeshVertex vertex{{samplesPerSide_ * p.x, samplesPerSide_ * p.y, p.z}, turn * mesh_.normals[v], {}, {}};
+                if (!mesh_.tangents.empty()) {
+                    const glm::vec4& tangent = mesh_.tangents[v];
+                    vertex.tangent = glm::vec4(turn * glm::vec3(tangent), tangent.w);
+                    vertex.uv = mesh_.uvs[v];
+                }
+                vertices[i] = vertex;
+            }
+        });
+    }
+
+    void beginRendering(VkCommandBuffer commands)
+    {
+        imageBarrier(commands, target_.image(), isEmpty_ ? kUnused : kDrawnTo, kDrawnTo);
+        depthBarrier(commands, depth_, isEmpty_);
+        const VkAttachmentLoadOp load = isEmpty_ ? VK_ATTACHMENT_LOAD_OP_CLEAR : VK_ATTACHMENT_LOAD_OP_LOAD;
+        const VkRenderingAttachmentInfo color{.sType = VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO,
+                                              .imageView = target_.view(),
+                                              .imageLayout = kDrawnTo.layout,
+                                              .loadOp = load,
+                                              .storeOp = VK_ATTACHMENT_STORE_OP_STORE,
+                                              .clearValue = {.color = {.float32 = {0, 0, 0, 0}}}};
+        const VkRenderingAttachmentInfo depth{.sType = VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO,
+                                              .imageView = depth_.view(),
+                                              .imageLayout = VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL,
+                                              .loadOp = load,
+                                              .storeOp = VK_ATTACHMENT_STORE_OP_STORE,
+                                              .clearValue = {.depthStencil = {.depth = 1}}};
+        const VkRect2D area{.extent = {extent_.width, extent_.height}};
+        const VkRenderingInfo info{.sType = VK_STRUCTURE_TYPE_RENDERING_INFO,
+                                   .renderArea = area,
+                                   .layerCount = 1,
+                                   .colorAttachmentCount = 1,
+                                   .pColorAttachments = &color,
+                                   .pDepthAttachment = &depth};
+        vkCmdBeginRendering(commands, &info);
+        const VkViewport viewport{
+            .width = static_cast<float>(extent_.width), .height = static_cast<float>(extent_.height), .maxDepth = 1};
+        vkCmdSetViewport(commands, 0, 1, &viewport);
+        vkCmdSetScissor(commands, 0, 1, &area);
+    }
+
+    void record(VkCommandBuffer commands, uint32_t vertexCount, float label, const Texture* map)
+    {
+        // A little beyond the nearest and the farthest, which rounding would clip.
+        const auto reach = static_cast<float>(1.001 * (view_.nearest - view_.farthest) + 1);
+        const MeshConstants constants{{extent_.width, extent_.height},
+                                      static_cast<float>(view_.nearest) + 0.0005f * reach,
+                                      1.001f * reach,
+                                      static_cast<float>(samplesPerSide_),
+                                      label};
+        const MeshPipeline& pipeline = map ? *mapped_ : plain_;
+        beginRendering(commands);
+        vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline.get());
+        const ShaderInput input = textureInput(kBindingMeshNormalMap, nearest_, map ? *map : noMap_);
+        const VkWriteDescriptorSet write{.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
+                                         .dstBinding = input.binding,
+                                         .descriptorCount = 1,
+                                         .descriptorType = kTextureInput,
+                                         .pImageInfo = &input.image};
+        context_.pushDescriptorSet(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline.layout(), 0, 1, &write);
+        vkCmdPushConstants(commands, pipeline.layout(), kMeshStages, 0, sizeof(constants), &constants);
+        const VkBuffer buffer = vertices_.get();
+        const VkDeviceSize offset = 0;
+        vkCmdBindVertexBuffers(commands, 0, 1, &buffer, &offset);
+        vkCmdDraw(commands, vertexCount, 1, 0, 0);
+        vkCmdEndRendering(commands);
+    }
+
+    const Context& context_;
+    const Mesh& mesh_;
+    const MeshView& view_;
+    int samplesPerSide_;
+    VkExtent3D extent_;
+    Texture target_;
+    DepthBuffer depth_;
+    Buffer vertices_;
+    Sampler nearest_;
+    Texture noMap_; // the shader has a place for one
+    MeshPipeline plain_;
+    std::optional<MeshPipeline> mapped_;
+    std::map<const NormalMap*, Texture> maps_;
+    bool isEmpty_ = true;
+};
+
+int samplesPerSideFor(const Context& context, const MeshView& view)
+{
+    const VkDeviceSize bytes = VkDeviceSize{4} * view.width * view.height * sizeof(glm::vec4);
+    const uint32_t side = 2 * static_cast<uint32_t>(std::max(view.width, view.height));
+    const bool fits = side <= context.limits().maxImageDimension2D &&
+                      side <= context.limits().maxViewportDimensions[0] &&
+                      bytes <= std::min(kLargestTarget, context.largestAllocation());
+    return fits ? 2 : 1;
+}
+
+} // namespace
+
+Surface rasterisedMesh(const Context& context, const Mesh& mesh, const MeshView& view)
+{
+    requirePictureSize(context, view.width, view.height);
+    const int samplesPerSide = samplesPerSideFor(context, view);
+    MeshRaster raster(context, mesh, view, samplesPerSide);
+    raster.drawParts();
+    const Buffer samples = raster.read();
+    Surface surface =
+        resolvedSurface(static_cast<const glm::vec4*>(samples.mapped()), view.width, view.height, samplesPerSide);
+    for (const MeshPart& part : mesh.parts) {
+        if (surface.parts.size() < Surface::kNoMaterial) {
+            surface.parts.push_back(part.name);
+        }
+    }
+    return surface;
+}
+
+} // namespace nacre

@@ -1,0 +1,14 @@
+#pragma once
+#include "engine/gpu/context.h"
+#include "engine/scene/surface.h"
+#include "engine/target/mesh_view.h"
+
+namespace nacre {
+
+// What a distant camera sees of a mesh, drawn on the device: unit normals on the side that is seen, heights in pixels,
+// a label for each part (the last one takes what is beyond 255 parts). Each pixel is the mean of 2x2 samples where the
+// device has room for them: of those on its nearest surface. Triangles are uploaded piece by piece.
+// Throws Error where the picture is beyond the device's limits.
+Surface rasterisedMesh(const Context& context, const Mesh& mesh, const MeshView& view);
+
+} // namespace nacre

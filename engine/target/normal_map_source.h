@@ -1,0 +1,25 @@
+#pragma once
+#include "engine/scene/surface.h"
+#include "engine/target/height_from_normals.h"
+#include "engine/target/integrability.h"
+
+namespace nacre {
+
+// A surface whose height was integrated from its normals.
+struct IntegratedSurface {
+    Surface surface;
+    size_t pieces = 0; // whose heights against each other are not known
+};
+
+// Of one part, wherever there is a normal; a tangent-space map is a flat piece seen from the front.
+IntegratedSurface surfaceOfNormals(const NormalMap& normals);
+
+// Normals and labels of an acquired surface, its materials as names of parts; its height, or one integrated from the
+// normals where it has none.
+IntegratedSurface surfaceWithoutMaterials(Surface acquired);
+
+// What to tell the user of a map that does not fit a height as `normalY` reads it but would with green flipped; empty
+// where nothing is to be said.
+std::string flippedGreenWarning(const std::filesystem::path& file, const NormalMap& map, NormalY normalY);
+
+} // namespace nacre

@@ -1,0 +1,223 @@
+#include "engine/viewer/controls.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/viewer/light_ball.h"
+
+namespace nacre {
+
+namespace {
+
+// The captured light that a photograph shows no longer stands alone.
+void leavePhotograph(Session& session)
+{
+    session.photograph.reset();
+    session.comparison = Comparison::none;
+}
+
+void moveLight(Session& session, const glm::vec3& direction)
+{
+    if (session.light >= session.state.lights.size()) {
+        return;
+    }
+    leavePhotograph(session);
+    LightSource& light = session.state.lights[session.light];
+    light.captured = 0;
+    light.direction = direction;
+}
+
+void toggleShow(Session& session, Show show)
+{
+    session.state.show = session.state.show == show ? Show::picture : show;
+    session.comparison = Comparison::none;
+}
+
+void stepPhotograph(Session& session, const Choices& choices, bool forward)
+{
+    const size_t count = choices.captured.size();
+    if (count > 0) {
+        const size_t current = session.photograph.value_or(forward ? count - 1 : 0);
+        showCapturedLight(session, choices, (current + (forward ? 1 : count - 1)) % count);
+    }
+}
+
+void toggleComparison(Session& session, const Choices& choices, Comparison comparison)
+{
+    if (!session.hasPhotographs || choices.captured.empty()) {
+        return;
+    }
+    if (!session.photograph) {
+        showCapturedLight(session, choices, 0);
+    }
+    session.comparison = session.comparison == comparison ? Comparison::none : comparison;
+    session.state.show = Show::picture;
+}
+
+void toggleWipe(Session& session, const Choices& choices)
+{
+    const auto chosen = chosenMaterial(session.state, choices);
+    if (!session.state.wipe.material.empty()) {
+        session.state.wipe = {};
+    } else if (choices.materials.size() > 1) {
+        chooseWipe(session, choices, (chosen.value_or(0) + 1) % choices.materials.size());
+    }
+}
+
+// Actions that a key which is held goes on with; the others would flicker.
+bool steps(Action action)
+{
+    return action == Action::brighter || action == Action::darker || action == Action::previousPhotograph ||
+           action == Action::nextPhotograph;
+}
+
+void changeExposure(Session& session, float stops)
+{
+    session.state.exposure = session.state.exposure.value_or(0.0f) + stops;
+}
+
+} // namespace
+
+void act(Session& session, const Choices& choices, const KeyPress& press)
+{
+    const KeyBinding* binding = bindingOf(press);
+    if (binding != nullptr && (!press.isRepeat || steps(binding->action))) {
+        act(session, choices, binding->action, static_cast<size_t>(press.key - binding->key));
+    }
+}
+
+void act(Session& session, const Choices& choices, Action action, size_t number)
+{
+    switch (action) {
+    case Action::help:
+        session.help = !session.help;
+        return;
+    case Action::material:
+        chooseMaterial(session, choices, number);
+        return;
+    case Action::brighter:
+        return changeExposure(session, kExposureStep);
+    case Action::darker:
+        return changeExposure(session, -kExposureStep);
+    case Action::normals:
+        return toggleShow(session, Show::normals);
+    case Action::coverage:
+        return toggleShow(session, Show::coverage);
+    case Action::labels:
+        return toggleShow(session, Show::labels);
+    case Action::wipe:
+        return toggleWipe(session, choices);
+    case Action::play:
+        session.playing = !session.playing;
+        return;
+    case Action::reset:
+        session.state = session.opened;
+        session.playing = false;
+        session.light = 0;
+        return leavePhotograph(session);
+    case Action::fit:
+        session.state.framing = {};
+        return;
+    case Action::previousPhotograph:
+        return stepPhotograph(session, choices, false);
+    case Action::nextPhotograph:
+        return stepPhotograph(session, choices, true);
+    case Action::photograph:
+        return toggleComparison(session, choices, Comparison::photograph);
+    case Action::difference:
+        return toggleComparison(session, choices, Comparison::difference);
+    case Action::screenshot:
+        session.wantsScreenshot = true;
+        return;
+    case Action::quit:
+        session.wantsToQuit = !session.help;
+        session.help = false;
+        return;
+    }
+}
+
+void chooseMaterial(Session& session, const Choices& choices, size_t material)
+{
+    if (material < choices.materials.size()) {
+        const size_t target = chosenTarget(session.state, choices).value_or(0);
+        session.state = withChoice(session.state, choices, material, target);
+    }
+}
+
+void chooseTarget(Session& session, const Choices& choices, size_t target)
+{
+    if (target < choices.targets.size()) {
+        const size_t material = chosenMaterial(session.state, choices).value_or(0);
+        session.state = withChoice(session.state, choices, material, target);
+        leavePhotograph(session);
+    }
+}
+
+void chooseWipe(Session& session, const Choices& choices, size_t material)
+{
+    if (material < choices.materials.size()) {
+        session.state.wipe.material = specificationOf(choices, material);
+    }
+}
+
+void showCapturedLight(Session& session, const Choices& choices, size_t index)
+{
+    if (index >= choices.captured.size()) {
+        return;
+    }
+    const Light& light = choices.captured[index].light;
+    const int number = session.state.surface.empty() ? 0 : static_cast<int>(index) + 1;
+    session.state.lights = {{.captured = number, .direction = light.direction, .irradiance = light.irradiance}};
+    session.state.environment.clear();
+    session.light = 0;
+    session.playing = false;
+    session.photograph = index;
+}
+
+void pointLight(Session& session, const glm::vec2& disc)
+{
+    moveLight(session, lightFromBallDisc(disc));
+}
+
+void dragLight(Session& session, const glm::vec2& moved, float windowHeight)
+{
+    if (session.light < session.state.lights.size()) {
+        const glm::vec2 radii = glm::vec2(moved.x, -moved.y) / (kBallRadiusOfDrag * windowHeight);
+        moveLight(session, draggedLight(session.state.lights[session.light].direction, radii));
+    }
+}
+
+void addLight(Session& session)
+{
+    // Each next one a third of a turn further, so that they do not hide behind each other.
+    const float azimuth = 2.0944f * static_cast<float>(session.state.lights.size()) + 0.9f;
+    leavePhotograph(session);
+    session.state.lights.push_back(
+        {.direction = lightFromBallDisc(0.6f * glm::vec2(std::cos(azimuth), std::sin(azimuth)))});
+    session.light = session.state.lights.size() - 1;
+}
+
+void removeLight(Session& session)
+{
+    std::vector<LightSource>& lights = session.state.lights;
+    const bool isLast = lights.size() == 1 && session.state.environment.empty(); // something has to light the scene
+    if (session.light < lights.size() && !isLast) {
+        leavePhotograph(session);
+        lights.erase(lights.begin() + static_cast<std::ptrdiff_t>(session.light));
+        session.light = std::min(session.light, lights.empty() ? 0 : lights.size() - 1);
+    }
+}
+
+void play(Session& session, float seconds)
+{
+    const float turn = 2 * kPi * seconds / kSecondsAround;
+    const float c = std::cos(turn), s = std::sin(turn);
+    leavePhotograph(session);
+    for (LightSource& light : session.state.lights) {
+        const glm::vec3 d = light.direction;
+        light.captured = 0;
+        light.direction = {c * d.x - s * d.y, s * d.x + c * d.y, d.z};
+    }
+}
+
+} // namespace nacre

@@ -1,0 +1,50 @@
+#pragma once
+#include "engine/viewer/choices.h"
+#include "engine/viewer/framing.h"
+#include "engine/viewer/key_table.h"
+
+namespace nacre {
+
+// What stands beside or in place of the render.
+enum class Comparison { none, photograph, difference };
+
+// What the user has done to a window; pure data, so that mouse and keys are tested without one.
+struct Session {
+    ViewState state;
+    ViewState opened; // what R goes back to
+    size_t light = 0; // of state.lights, that drags move
+    bool help = false;
+    bool playing = false;
+    Comparison comparison = Comparison::none;
+    std::optional<size_t> photograph; // of the captured ones, that was stepped to
+    bool hasPhotographs = false;      // pictures of the captured lights are at hand
+    bool wantsScreenshot = false;
+    bool wantsToQuit = false;
+};
+
+inline constexpr float kExposureStep = 0.25f;     // stops
+inline constexpr float kSecondsAround = 8;        // of the light path
+inline constexpr float kBallRadiusOfDrag = 0.25f; // radius of the ball that a right-drag turns, of the window's height
+
+// What a key does. Keys whose thing is not there (a tenth material, photographs without a capture) do nothing.
+void act(Session& session, const Choices& choices, const KeyPress& press);
+void act(Session& session, const Choices& choices, Action action, size_t number = 0);
+
+void chooseMaterial(Session& session, const Choices& choices, size_t material);
+void chooseTarget(Session& session, const Choices& choices, size_t target);
+void chooseWipe(Session& session, const Choices& choices, size_t material);
+
+// The light stands at the captured one's place and strength, alone.
+void showCapturedLight(Session& session, const Choices& choices, size_t index);
+
+// The chosen light goes where the cursor is on a light ball (see light_ball.h).
+void pointLight(Session& session, const glm::vec2& disc);
+// Drags in screen pixels, y down, in a window so many pixels high.
+void dragLight(Session& session, const glm::vec2& moved, float windowHeight);
+void addLight(Session& session);
+void removeLight(Session& session); // the chosen one, unless nothing would light the scene
+
+// Time passes while the light path plays: lights turn about the viewing axis.
+void play(Session& session, float seconds);
+
+} // namespace nacre

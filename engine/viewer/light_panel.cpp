@@ -1,0 +1,156 @@
+#include <cmath>
+
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
+#include <imgui.h>
+
+#include "engine/viewer/light_ball.h"
+#include "engine/viewer/panels.h"
+
+namespace nacre {
+
+namespace {
+
+constexpr float kMarkerRadius = 6;  // units of layout
+constexpr float kMarkerReach = 12;  // of the cursor, to take a light
+constexpr float kMostStrength = 16; // of irradiance's slider
+
+// Where the ball stands on the screen.
+struct BallPlace {
+    glm::vec2 middle;
+    float radius;
+
+    glm::vec2 screenFromDisc(const glm::vec2& disc) const { return middle + radius * glm::vec2(disc.x, -disc.y); }
+    glm::vec2 discFromScreen(const glm::vec2& p) const { return glm::vec2(p.x - middle.x, middle.y - p.y) / radius; }
+};
+
+// The light whose marker the cursor is on; the chosen one where it is on none.
+size_t lightAt(const Session& session, const BallPlace& ball, const glm::vec2& cursor, float reach)
+{
+    size_t found = session.light;
+    float nearest = reach;
+    for (size_t i = 0; i < session.state.lights.size(); ++i) {
+        const glm::vec2 marker = ball.screenFromDisc(ballDiscFromLight(session.state.lights[i].direction));
+        if (glm::distance(marker, cursor) < nearest) {
+            nearest = glm::distance(marker, cursor);
+            found = i;
+        }
+    }
+    return found;
+}
+
+void drawMarkers(const Session& session, const BallPlace& ball, float scale)
+{
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    for (size_t i = 0; i < session.state.lights.size(); ++i) {
+        const LightSource& light = session.state.lights[i];
+        const glm::vec2 p = ball.screenFromDisc(ballDiscFromLight(light.direction));
+        const bool isChosen = i == session.light;
+        const ImU32 fill = !light.on ? IM_COL32(90, 90, 90, 255) : IM_COL32(255, 214, 90, 255);
+        list.AddCircleFilled({p.x, p.y}, kMarkerRadius * scale, fill);
+        list.AddCircle({p.x, p.y}, (kMarkerRadius + 1) * scale,
+                       isChosen ? IM_COL32(255, 255, 255, 255) : IM_COL32(0, 0, 0, 255), 0,
+                       isChosen ? 2 * scale : scale);
+        const std::string number = std::to_string(i + 1);
+        const ImVec2 size = ImGui::CalcTextSize(number.c_str());
+        const float small = 0.75f;
+        list.AddText(ImGui::GetFont(), small * ImGui::GetFontSize(),
+                     {p.x - small * size.x / 2, p.y - small * size.y / 2}, IM_COL32(0, 0, 0, 255), number.c_str());
+    }
+}
+
+void showBall(Session& session, const PanelInputs& inputs, std::vector<PlacedPicture>& placed)
+{
+    const auto size = static_cast<float>(inputs.ball->extent().width);
+    const float indent = 0.5f * (ImGui::GetContentRegionAvail().x - size);
+    ImGui::SetCursorPosX(ImGui::GetCursorPosX() + std::max(indent, 0.0f));
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    const BallPlace ball{{at.x + size / 2, at.y + size / 2}, size / 2};
+    ImGui::InvisibleButton("ball", {size, size});
+    const glm::vec2 cursor(ImGui::GetIO().MousePos.x, ImGui::GetIO().MousePos.y);
+    if (ImGui::IsItemActivated()) {
+        session.light = lightAt(session, ball, cursor, kMarkerReach * inputs.scale);
+    }
+    if (ImGui::IsItemActive()) {
+        session.playing = false;
+        pointLight(session, ball.discFromScreen(cursor));
+    } else if (ImGui::IsItemHovered()) {
+        ImGui::SetTooltip("Drag: the light goes along");
+    }
+    const ImVec2 low = ImGui::GetWindowDrawList()->GetClipRectMin(),
+                 high = ImGui::GetWindowDrawList()->GetClipRectMax();
+    placed.push_back(
+        placedPicture(*inputs.ball, {{at.x, at.y}, {size, size}}, {{low.x, low.y}, {high.x - low.x, high.y - low.y}}));
+    drawMarkers(session, ball, inputs.scale);
+}
+
+void showList(Session& session)
+{
+    for (size_t i = 0; i < session.state.lights.size(); ++i) {
+        ImGui::PushID(static_cast<int>(i));
+        LightSource& light = session.state.lights[i];
+        ImGui::Checkbox("##on", &light.on);
+        ImGui::SameLine();
+        const glm::vec3 d = glm::normalize(light.direction);
+        const std::string name = light.captured > 0 ? fmt::format("{}  captured {}", i + 1, light.captured)
+                                                    : fmt::format("{}  {:+.2f} {:+.2f} {:+.2f}", i + 1, d.x, d.y, d.z);
+        if (ImGui::Selectable(name.c_str(), i == session.light)) {
+            session.light = i;
+        }
+        ImGui::PopID();
+    }
+    if (ImGui::Button("Add light")) {
+        addLight(session);
+    }
+    if (session.state.lights.size() > 1 || (!session.state.environment.empty() && !session.state.lights.empty())) {
+        ImGui::SameLine();
+        if (ImGui::Button("Remove")) {
+            removeLight(session);
+        }
+    }
+}
+
+// Irradiance as a colour, whose largest channel is 1, and a strength.
+void showChosen(LightSource& light)
+{
+    const float strength = std::max({light.irradiance.r, light.irradiance.g, light.irradiance.b});
+    glm::vec3 colour = strength > 0 ? light.irradiance / strength : glm::vec3(1);
+    float wanted = strength;
+    bool changed = ImGui::ColorEdit3("Colour", &colour.x, ImGuiColorEditFlags_Float | ImGuiColorEditFlags_NoInputs);
+    ImGui::PushItemWidth(-0.38f * ImGui::GetWindowWidth());
+    changed |= ImGui::SliderFloat("Strength", &wanted, 0, kMostStrength, "%.2f", ImGuiSliderFlags_Logarithmic);
+    if (changed) {
+        const float largest = std::max({colour.r, colour.g, colour.b, 1e-3f});
+        light.irradiance = glm::max(wanted, 0.0f) * colour / largest;
+        light.captured = 0;
+    }
+    float soft = light.softDegrees;
+    if (ImGui::SliderFloat("Softness", &soft, 0, 45, "%.0f\xC2\xB0")) {
+        light.softDegrees = std::round(std::clamp(soft, 0.0f, 90.0f));
+    }
+    ImGui::PopItemWidth();
+}
+
+} // namespace
+
+void showLightPanel(Session& session, const PanelInputs& inputs, std::vector<PlacedPicture>& placed)
+{
+    if (!ImGui::CollapsingHeader("Lights", ImGuiTreeNodeFlags_DefaultOpen)) {
+        return;
+    }
+    if (inputs.ball != nullptr) {
+        showBall(session, inputs, placed);
+    }
+    showList(session);
+    if (session.light < session.state.lights.size()) {
+        showChosen(session.state.lights[session.light]);
+    }
+    if (!session.state.environment.empty()) {
+        ImGui::Text("Environment %s", session.state.environment.filename().c_str());
+        ImGui::PushItemWidth(-0.38f * ImGui::GetWindowWidth());
+        ImGui::SliderFloat("Turn", &session.state.environmentTurn, -180, 180, "%.0f\xC2\xB0");
+        ImGui::PopItemWidth();
+    }
+}
+
+} // namespace nacre

@@ -1,0 +1,79 @@
+#include <imgui.h>
+
+#include "engine/viewer/panels.h"
+
+namespace nacre {
+
+namespace {
+
+void showWipe(Session& session, const PanelInputs& inputs, size_t index, bool isWiped, const ImVec2& size)
+{
+    if (ImGui::Selectable("wipe", isWiped, 0, size)) {
+        if (isWiped) {
+            session.state.wipe = {};
+        } else {
+            chooseWipe(session, inputs.choices, index);
+        }
+    }
+    if (ImGui::IsItemHovered()) {
+        ImGui::SetTooltip("This material right of a line that can be dragged");
+    }
+}
+
+void showMaterial(Session& session, const PanelInputs& inputs, size_t index, bool isChosen,
+                  std::vector<PlacedPicture>& placed)
+{
+    const MaterialChoice& choice = inputs.choices.materials[index];
+    const auto found = inputs.thumbnails.find(choice.specification);
+    const float side = 32 * inputs.scale;
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    ImGui::Dummy({side, side});
+    if (found != inputs.thumbnails.end()) {
+        const ImVec2 low = ImGui::GetWindowDrawList()->GetClipRectMin();
+        const ImVec2 high = ImGui::GetWindowDrawList()->GetClipRectMax();
+        placed.push_back(placedPicture(found->second, {{at.x, at.y}, {side, side}},
+                                       {{low.x, low.y}, {high.x - low.x, high.y - low.y}}));
+    }
+    ImGui::SameLine();
+    const std::string name = std::to_string(index + 1) + "  " + choice.name;
+    const bool isWiped = session.state.wipe.material == specificationOf(inputs.choices, index);
+    const bool canWipe = inputs.choices.materials.size() > 1;
+    const float wipeWidth = canWipe ? 52 * inputs.scale : 0.0f;
+    ImGui::PushStyleVar(ImGuiStyleVar_SelectableTextAlign, {0, 0.5f});
+    if (ImGui::Selectable(name.c_str(), isChosen, 0, {ImGui::GetContentRegionAvail().x - wipeWidth, side})) {
+        chooseMaterial(session, inputs.choices, index);
+    }
+    if (canWipe) {
+        ImGui::SameLine();
+        showWipe(session, inputs, index, isWiped, {0.8f * wipeWidth, side});
+    }
+    ImGui::PopStyleVar();
+}
+
+} // namespace
+
+void showMaterialPanel(Session& session, const PanelInputs& inputs, std::vector<PlacedPicture>& placed)
+{
+    if (!ImGui::CollapsingHeader("Materials", ImGuiTreeNodeFlags_DefaultOpen)) {
+        return;
+    }
+    const auto chosen = chosenMaterial(session.state, inputs.choices);
+    for (size_t i = 0; i < inputs.choices.materials.size(); ++i) {
+        ImGui::PushID(static_cast<int>(i));
+        showMaterial(session, inputs, i, chosen == i, placed);
+        ImGui::PopID();
+    }
+    if (inputs.choices.targets.size() > 1) {
+        ImGui::TextDisabled("on the shape of");
+        const auto target = chosenTarget(session.state, inputs.choices);
+        for (size_t i = 0; i < inputs.choices.targets.size(); ++i) {
+            ImGui::PushID(static_cast<int>(i) + 1000);
+            if (ImGui::RadioButton(inputs.choices.targets[i].name.c_str(), target == i)) {
+                chooseTarget(session, inputs.choices, i);
+            }
+            ImGui::PopID();
+        }
+    }
+}
+
+} // namespace nacre

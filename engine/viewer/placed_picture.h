@@ -1,0 +1,26 @@
+#pragma once
+#include <span>
+
+#include "engine/gpu/texture.h"
+#include "engine/viewer/picture_blit.h"
+
+namespace nacre {
+
+// Columns of a picture (kCopiedFrom), and where in the window they go: below all that ImGui draws.
+struct PlacedPicture {
+    const Texture* texture = nullptr;
+    int firstColumn = 0;
+    int endColumn = 0;
+    Framing framing; // a resolved one
+    Area area;       // what lies outside is cut off
+};
+
+// All of the texture stretched over `place`, as far as it lies in `area`.
+PlacedPicture placedPicture(const Texture& texture, const Area& place, const Area& area);
+
+// Clears the image to `background` (codes in [0,1]) and copies the pictures in order; from any state to
+// VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL.
+void recordPictures(VkCommandBuffer commands, VkImage image, std::span<const PlacedPicture> pictures,
+                    const glm::vec3& background);
+
+} // namespace nacre

@@ -1,0 +1,108 @@
+#include "engine/viewer/plots.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <imgui.h>
+
+namespace nacre {
+
+namespace {
+
+constexpr ImU32 kAxis = IM_COL32(110, 110, 115, 255);
+constexpr ImU32 kBack = IM_COL32(22, 22, 24, 255);
+
+struct VerdictColour {
+    const char* verdict;
+    ImU32 colour;
+};
+// As verdicts.png of an acquisition has them, on dark grey.
+constexpr std::array kVerdictColours = {
+    VerdictColour{"used", IM_COL32(235, 235, 235, 255)}, VerdictColour{"shadow", IM_COL32(90, 140, 255, 255)},
+    VerdictColour{"highlight", IM_COL32(250, 210, 60, 255)}, VerdictColour{"saturated", IM_COL32(240, 70, 60, 255)}};
+
+ImU32 colourOf(const std::string& verdict)
+{
+    const auto found = std::find_if(kVerdictColours.begin(), kVerdictColours.end(),
+                                    [&](const VerdictColour& c) { return verdict == c.verdict; });
+    return found == kVerdictColours.end() ? kAxis : found->colour;
+}
+
+// A dark box for a plot; answers its top left corner.
+ImVec2 beginPlot(float width, float height)
+{
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    ImGui::Dummy({width, height});
+    ImGui::GetWindowDrawList()->AddRectFilled(at, {at.x + width, at.y + height}, kBack, 3);
+    return at;
+}
+
+float meanOf(const glm::vec3& f)
+{
+    return (f.r + f.g + f.b) / 3;
+}
+
+} // namespace
+
+void plotLobe(std::span<const LobeSample> samples, float incidence, float height)
+{
+    const float width = ImGui::GetContentRegionAvail().x, margin = 0.08f * height;
+    const ImVec2 at = beginPlot(width, height);
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    const ImVec2 foot(at.x + width / 2, at.y + height - margin);
+    const float reach = std::min(width / 2, height - margin) - margin;
+    const auto place = [&](float angle, float radius) {
+        return ImVec2(foot.x + radius * std::sin(angle), foot.y - radius * std::cos(angle));
+    };
+    float largest = 1e-9f;
+    for (const LobeSample& sample : samples) {
+        largest = std::max(largest, meanOf(sample.f));
+    }
+    list.AddLine({foot.x - reach, foot.y}, {foot.x + reach, foot.y}, kAxis);
+    list.AddLine(foot, place(0, reach), kAxis);
+    list.AddLine(foot, place(-incidence, reach), IM_COL32(255, 214, 90, 255), 2);
+    for (size_t i = 0; i + 1 < samples.size(); ++i) {
+        const bool isMeasured = samples[i].isMeasured && samples[i + 1].isMeasured;
+        list.AddLine(place(samples[i].angle, reach * meanOf(samples[i].f) / largest),
+                     place(samples[i + 1].angle, reach * meanOf(samples[i + 1].f) / largest),
+                     isMeasured ? IM_COL32(120, 220, 140, 255) : IM_COL32(120, 220, 140, 90), 1.5f);
+    }
+    ImGui::TextDisabled("f up to %.3g / sr, dim: not measured", largest);
+}
+
+void plotObservations(std::span<const PixelObservation> observations, float height)
+{
+    const float width = ImGui::GetContentRegionAvail().x, margin = 0.06f * height;
+    const ImVec2 at = beginPlot(width, height);
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    std::vector<float> values;
+    for (const PixelObservation& o : observations) {
+        values.push_back(std::max(o.observed, o.predicted));
+    }
+    const float largest = values.empty() ? 1.0f : std::max(*std::max_element(values.begin(), values.end()), 1e-6f);
+    const auto place = [&](float nDotL, float value) {
+        return ImVec2(at.x + margin + std::clamp(nDotL, 0.0f, 1.0f) * (width - 2 * margin),
+                      at.y + height - margin - std::clamp(value / largest, 0.0f, 1.0f) * (height - 2 * margin));
+    };
+    list.AddLine(place(0, 0), place(1, 0), kAxis);
+    list.AddLine(place(0, 0), place(0, largest), kAxis);
+    for (const PixelObservation& o : observations) {
+        const ImVec2 model = place(o.nDotL, o.predicted), dot = place(o.nDotL, o.observed);
+        list.AddLine({model.x - 3, model.y}, {model.x + 3, model.y}, IM_COL32(120, 220, 140, 160));
+        list.AddCircleFilled(dot, 2.2f, colourOf(o.verdict));
+    }
+    ImGui::TextDisabled("I / E over n\xC2\xB7l, 0 to 1; green: model");
+    for (const VerdictColour& c : kVerdictColours) {
+        const auto count = std::count_if(observations.begin(), observations.end(),
+                                         [&](const PixelObservation& o) { return o.verdict == c.verdict; });
+        if (count > 0) {
+            ImGui::TextColored(ImGui::ColorConvertU32ToFloat4(c.colour), "%d %s", static_cast<int>(count), c.verdict);
+            ImGui::SameLine();
+        }
+    }
+    ImGui::NewLine();
+}
+
+} // namespace nacre

@@ -1,0 +1,36 @@
+#include "engine/viewer/screenshot.h"
+
+#include <fmt/format.h>
+
+#include "engine/scene/scene_file.h"
+#include "engine/scene/whole_file.h"
+
+namespace nacre {
+
+namespace {
+
+std::filesystem::path stateFileOf(std::filesystem::path picture)
+{
+    return picture.replace_extension(".json");
+}
+
+} // namespace
+
+void saveScreenshot(const std::filesystem::path& file, const Image& picture, const ViewState& state)
+{
+    const std::string text = textOf(sceneFileOf(state), file.parent_path());
+    saveImage(file, picture, PixelType::uint8, {{kStateAttribute, text}});
+    writeTextFile(stateFileOf(file), text);
+}
+
+std::filesystem::path nextScreenshot(const std::filesystem::path& folder)
+{
+    for (int number = 1;; ++number) {
+        const std::filesystem::path file = folder / fmt::format("nacre-{:04}.png", number);
+        if (!std::filesystem::exists(file) && !std::filesystem::exists(stateFileOf(file))) {
+            return file;
+        }
+    }
+}
+
+} // namespace nacre

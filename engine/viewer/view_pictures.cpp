@@ -1,0 +1,97 @@
+#include "engine/viewer/view_pictures.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <glm/trigonometric.hpp>
+
+namespace nacre {
+
+std::vector<Light> lightsOfView(const ViewState& state, const Environment* environment,
+                                std::span<const CapturedLight> captured)
+{
+    std::vector<Light> lights = lightsOf(state.lights, captured);
+    if (environment != nullptr) {
+        const std::vector<Light> more = lightsFromEnvironment(
+            *environment, state.environmentLights.value_or(kEnvironmentLights), glm::radians(state.environmentTurn));
+        lights.insert(lights.end(), more.begin(), more.end());
+    }
+    return lights;
+}
+
+void ViewPictures::setScene(const LoadedScene& scene)
+{
+    if (scene.main != scene_.main) {
+        main_.setSurface(scene.main->surface, scene.main->ballSizes);
+    }
+    if (!scene.other) {
+        other_.reset();
+    } else if (scene.other != scene_.other || !other_) {
+        other_ = std::make_unique<Renderer>(context_);
+        other_->setSurface(scene.other->surface, scene.other->ballSizes);
+    }
+    scene_ = scene;
+}
+
+void ViewPictures::applyTo(Renderer& renderer, const ViewState& state, const glm::vec3& view) const
+{
+    renderer.setView(view);
+    renderer.setLights(lights_);
+    renderer.setDisplay(display_);
+    renderer.setShow(state.show);
+}
+
+void ViewPictures::apply(ViewState& state, const glm::vec3& view, std::span<const CapturedLight> captured)
+{
+    lights_ = lightsOfView(state, scene_.environment.get(), captured);
+    wipeAt_ = state.wipe.at;
+    if (!state.exposure) {
+        main_.setView(view);
+        main_.setLights(lights_);
+        state.exposure = main_.automaticExposure();
+    }
+    display_ = {.exposureStops = *state.exposure, .toneCurve = state.toneCurve};
+    applyTo(main_, state, view);
+    if (other_) {
+        applyTo(*other_, state, view);
+    }
+}
+
+bool ViewPictures::draw()
+{
+    const auto drawn = [&] { return main_.drawnPictures() + (other_ ? other_->drawnPictures() : 0); };
+    const size_t before = drawn();
+    main_.drawPicture();
+    if (other_) {
+        other_->drawPicture();
+    }
+    return drawn() != before;
+}
+
+glm::ivec2 ViewPictures::size() const
+{
+    const NormalMap& normals = scene_.main->surface.normals;
+    return {normals.width, normals.height};
+}
+
+int ViewPictures::wipeColumn() const
+{
+    const int width = size().x;
+    return other_ ? static_cast<int>(std::lround(std::clamp(wipeAt_, 0.0f, 1.0f) * static_cast<float>(width))) : width;
+}
+
+Image ViewPictures::picture()
+{
+    Image picture = main_.picture();
+    if (other_) {
+        const Image other = other_->picture();
+        for (int y = 0; y < picture.height; ++y) {
+            for (int x = wipeColumn(); x < picture.width; ++x) {
+                picture.setRgb(x, y, other.rgb(x, y));
+            }
+        }
+    }
+    return picture;
+}
+
+} // namespace nacre

@@ -1,0 +1,24 @@
+#pragma once
+#include <filesystem>
+
+#include "engine/gpu/context.h"
+#include "engine/viewer/scene_source.h"
+
+namespace nacre {
+
+struct ViewerOptions {
+    int width = 1280; // of the window, in the desktop's units
+    int height = 720;
+    std::filesystem::path screenshots = "."; // folder
+};
+
+// Opens a window on the state and returns when it is closed. The context must be one that presents (see
+// Window::vulkanExtensions). Throws Error: what the state names cannot be read, the window cannot be opened.
+void runViewer(const Context& context, ViewState state, Choices choices, const SceneSource& source,
+               const ViewerOptions& options);
+
+// The picture of the state, written as a screenshot is, without a window.
+void viewHeadless(const Context& context, ViewState state, const Choices& choices, const SceneSource& source,
+                  const std::filesystem::path& output);
+
+} // namespace nacre

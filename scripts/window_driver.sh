@@ -1,0 +1,72 @@
+# Sourced by what drives nacre's window under Xvfb with xdotool. $nacre is the program, $work a folder to write to.
+
+# Exit code 77, which CTest counts as skipped, where the tools are missing.
+require_window_tools() {
+    for tool in Xvfb xdotool import compare; do
+        command -v "$tool" >/dev/null || { echo "needs $tool (apt.txt)"; exit 77; }
+    done
+}
+
+start_display() { # SIZE such as 1280x720
+    mkdir -p "$work"
+    Xvfb -displayfd 3 -screen 0 "$1x24" 3>"$work/display" >/dev/null 2>&1 &
+    xvfb_id=$!
+    trap stop_display EXIT
+    for _ in $(seq 100); do [ -s "$work/display" ] && break; sleep 0.1; done
+    export DISPLAY=":$(cat "$work/display")"
+}
+
+stop_display() {
+    [ -n "${window_id:-}" ] && kill "$window_id" 2>/dev/null
+    [ -n "${xvfb_id:-}" ] && kill "$xvfb_id" 2>/dev/null
+    true
+}
+
+# A capture, the surface measured from it, and a second shape, made once.
+make_scene() {
+    [ -d "$work/bumpy.nacre" ] && return
+    "$nacre" synth "$work/capture" --quiet --force --lights 12 --size 320 --give-lights \
+        --material 'ggx:diffuse=0.5,0.2,0.1;specular=0.05;alpha=0.15'
+    "$nacre" acquire "$work/capture" -o "$work/bumpy.nacre" --quiet --force --normals consensus
+}
+
+open_window() { # ARGUMENTS of nacre view; waits until it has drawn
+    "$nacre" view "$@" --screenshots "$shots" >"$work/out" 2>"$work/err" &
+    window_id=$!
+    for _ in $(seq 300); do
+        x_window=$(xdotool search --name ' ms a frame$' 2>/dev/null | head -n 1) && [ -n "$x_window" ] && break
+        kill -0 "$window_id" 2>/dev/null || { cat "$work/err"; return 1; }
+        sleep 0.1
+    done
+    xdotool windowfocus "$x_window" mousemove 640 340
+    sleep 1
+}
+
+press() { for key in "$@"; do xdotool key "$key"; sleep 0.15; done; }
+
+# Presses F12 and leaves the new picture's name in $shot.
+screenshot() {
+    local before
+    before=$(ls "$shots" | wc -l)
+    press F12
+    for _ in $(seq 100); do
+        if [ "$(ls "$shots" | wc -l)" -ge $((before + 2)) ]; then
+            sleep 0.2
+            shot=$(ls "$shots"/*.png | tail -n 1)
+            return
+        fi
+        sleep 0.1
+    done
+    echo "F12 wrote nothing"; cat "$work/err"
+    return 1
+}
+
+drag() { # BUTTON X Y X Y ...: pressed at the first place, released at the last
+    local button=$1
+    shift
+    xdotool mousemove "$1" "$2" mousedown "$button"
+    shift 2
+    while [ $# -gt 0 ]; do xdotool mousemove "$1" "$2"; sleep 0.05; shift 2; done
+    xdotool mouseup "$button"
+    sleep 0.3
+}

@@ -1,0 +1,234 @@
+// Mesh files that are whole, and those that are not.
+#include <cstring>
+
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+
+#include "engine/scene/measures.h"
+#include "engine/target/mesh_file.h"
+#include "tests/support/expect_error.h"
+#include "tests/support/temp_folder.h"
+#include "tests/target/meshes.h"
+
+namespace nacre::test {
+namespace {
+namespace fs = std::filesystem;
+
+class MeshFileTest : public testing::Test {
+protected:
+    fs::path write(const std::string& name, const std::string& text)
+    {
+        writeText(folder_ / name, text);
+        return folder_ / name;
+    }
+    // Without its last `bytes`.
+    fs::path cut(const std::string& name, const std::string& text, size_t bytes)
+    {
+        return write(name, text.substr(0, text.size() - bytes));
+    }
+
+    TempFolder folder_;
+};
+
+template <class Value> std::string bytesOf(const Value& value)
+{
+    return std::string(reinterpret_cast<const char*>(&value), sizeof(value)); // little endian, as the machine is
+}
+
+constexpr float kCorners[4][3] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+constexpr int kTriangles[2][3] = {{0, 1, 2}, {0, 2, 3}};
+
+std::string plyText()
+{
+    std::string text = "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n"
+                       "element face 2\nproperty list uchar int vertex_indices\nend_header\n";
+    for (const auto& c : kCorners) {
+        text += fmt::format("{} {} {}\n", c[0], c[1], c[2]);
+    }
+    for (const auto& t : kTriangles) {
+        text += fmt::format("3 {} {} {}\n", t[0], t[1], t[2]);
+    }
+    return text;
+}
+
+std::string plyBinary()
+{
+    std::string text = "ply\nformat binary_little_endian 1.0\nelement vertex 4\nproperty float x\nproperty float y\n"
+                       "property float z\nelement face 2\nproperty list uchar int vertex_indices\nend_header\n";
+    for (const auto& c : kCorners) {
+        text += bytesOf(c);
+    }
+    for (const auto& t : kTriangles) {
+        text += '\3' + bytesOf(t);
+    }
+    return text;
+}
+
+std::string stlBinary()
+{
+    std::string text(80, ' ');
+    text += bytesOf(uint32_t{2});
+    for (const auto& t : kTriangles) {
+        const float normal[3] = {0, 0, 1};
+        text += bytesOf(normal) + bytesOf(kCorners[t[0]]) + bytesOf(kCorners[t[1]]) + bytesOf(kCorners[t[2]]);
+        text += std::string(2, '\0');
+    }
+    return text;
+}
+
+// One node that moves its mesh by 5 along x.
+std::string gltfJson(const std::string& buffer)
+{
+    return R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],
+"nodes":[{"mesh":0,"translation":[5,0,0]}],"materials":[{"name":"clay"}],
+"meshes":[{"name":"tile","primitives":[{"attributes":{"POSITION":0},"indices":1,"material":0}]}],
+"accessors":[{"bufferView":0,"componentType":5126,"count":4,"type":"VEC3","min":[0,0,0],"max":[1,1,0]},
+{"bufferView":1,"componentType":5125,"count":6,"type":"SCALAR"}],
+"bufferViews":[{"buffer":0,"byteOffset":0,"byteLength":48},{"buffer":0,"byteOffset":48,"byteLength":24}],
+"buffers":[{)" +
+           buffer + R"("byteLength":72}]})";
+}
+
+std::string glb()
+{
+    std::string json = gltfJson("");
+    json.resize((json.size() + 3) / 4 * 4, ' ');
+    const std::string data = bytesOf(kCorners) + bytesOf(kTriangles);
+    const auto total = static_cast<uint32_t>(12 + 8 + json.size() + 8 + data.size());
+    return "glTF" + bytesOf(uint32_t{2}) + bytesOf(total) + bytesOf(static_cast<uint32_t>(json.size())) + "JSON" +
+           json + bytesOf(static_cast<uint32_t>(data.size())) + std::string("BIN\0", 4) + data;
+}
+
+TEST_F(MeshFileTest, EveryFormatIsReadAsTheSameSquare)
+{
+    write("square.bin", bytesOf(kCorners) + bytesOf(kTriangles));
+    const fs::path files[] = {write("a.obj", squareObj(0, false)),
+                              write("a.ply", plyText()),
+                              write("b.PLY", plyBinary()),
+                              write("a.stl", stlBinary()),
+                              write("a.glb", glb()),
+                              write("a.gltf", gltfJson(R"("uri":"square.bin",)"))};
+    for (const fs::path& file : files) {
+        SCOPED_TRACE(file);
+        const Mesh mesh = loadMesh(file);
+        EXPECT_EQ(mesh.triangleCount(), 2u);
+        ASSERT_EQ(mesh.parts.size(), 1u);
+        EXPECT_FALSE(mesh.parts[0].name.empty());
+        for (const uint32_t index : mesh.indices) {
+            EXPECT_EQ(mesh.normals[index], glm::vec3(0, 0, 1));
+        }
+    }
+}
+
+TEST_F(MeshFileTest, PartsAreNamedAndPlacedByTheirNodes)
+{
+    const Mesh mesh = loadMesh(write("a.glb", glb()));
+    EXPECT_EQ(mesh.parts.at(0).name, "tile:clay");
+    for (const uint32_t index : mesh.indices) {
+        EXPECT_GE(mesh.positions[index].x, 5);
+    }
+}
+
+TEST_F(MeshFileTest, ACutFileSaysWhatWasExpected)
+{
+    expectError([&] { loadMesh(cut("a.ply", plyText(), 15)); }, {"a.ply", "cut off after 1 of its 2 face"});
+    expectError([&] { loadMesh(cut("b.ply", plyBinary(), 5)); }, {"b.ply", "cut off after 1 of its 2 face"});
+    expectError([&] { loadMesh(cut("v.ply", plyBinary(), 30)); }, {"v.ply", "cut off after 3 of its 4 vertex"});
+    expectError([&] { loadMesh(write("h.ply", "ply\nformat ascii 1.0\n")); }, {"h.ply", "header", "end_header"});
+    expectError([&] { loadMesh(cut("a.stl", stlBinary(), 7)); }, {"a.stl", "cut off", "184 bytes, 2 triangles"});
+    expectError([&] { loadMesh(write("t.stl", "solid x\nfacet normal 0 0 1\nouter loop\n")); }, {"t.stl", "endsolid"});
+    expectError([&] { loadMesh(cut("a.glb", glb(), 10)); }, {"a.glb", "cut off", "as its header says"});
+    expectError([&] { loadMesh(cut("a.gltf", gltfJson(R"("uri":"square.bin",)"), 20)); }, {"a.gltf", "ends with '}'"});
+    expectError([&] { loadMesh(cut("a.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3\nf 1 3 4", 2)); },
+                {"a.obj", "cut off in its last line, 'f 1 3'", "'f 1 2 3'"});
+    expectError([&] { loadMesh(cut("b.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\n", 4)); }, {"b.obj"});
+    expectError([&] { loadMesh(write("e.obj", "")); }, {"e.obj", "is empty"});
+    write("square.bin", std::string(10, 'x'));
+    expectError([&] { loadMesh(write("s.gltf", gltfJson(R"("uri":"square.bin",)"))); }, {"s.gltf"});
+}
+
+TEST_F(MeshFileTest, WhatIsNoMeshIsRefused)
+{
+    expectError([&] { loadMesh(folder_ / "none.obj"); }, {"none.obj", "does not exist"});
+    expectError([&] { loadMesh(write("a.fbx", "x")); }, {"a.fbx", "no mesh that can be read", ".obj, .ply"});
+    expectError([&] { loadMesh(write("a.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\n")); }, {"a.obj", "no faces"});
+    expectError([&] { loadMesh(write("a.ply", "nonsense\n")); }, {"a.ply", "no PLY"});
+    expectError([&] { loadMesh(write("a.glb", "nonsense nonsense")); }, {"a.glb", "no binary glTF"});
+    expectError([&] { loadMesh(write("b.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 9\n")); }, {"b.obj"});
+}
+
+TEST_F(MeshFileTest, UnusableTrianglesAreCountedAndLeftOut)
+{
+    const std::string vertices = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv nan 1 0\nv 2 0 0\nv inf 1 0\n";
+    const Mesh mesh = loadMesh(write("a.obj", vertices + "f 1 2 3\nf 1 2 4\nf 1 2 5\nf 1 1 3\nf 1 3 6\n"));
+    EXPECT_EQ(mesh.triangleCount(), 1u);
+    EXPECT_EQ(mesh.notFiniteTriangles, 2u);
+    EXPECT_EQ(mesh.degenerateTriangles, 2u);
+    expectError([&] { loadMesh(write("b.obj", vertices + "f 1 2 4\nf 1 2 5\n")); },
+                {"no usable face: 1 without an area, 1 with a vertex that is no number"});
+}
+
+TEST_F(MeshFileTest, ANormalMapWantsTextureCoordinates)
+{
+    NormalMap map(4, 4);
+    std::fill(map.normals.begin(), map.normals.end(), glm::vec3(0, 0, 1));
+    std::fill(map.confidence.begin(), map.confidence.end(), 1.0f);
+    saveNormalMap(folder_ / "map.png", map);
+    const fs::path bare = write("bare.obj", squareObj(0, false, false));
+    EXPECT_EQ(loadMesh(bare).triangleCount(), 2u);
+    expectError([&] { loadMesh(bare, {folder_ / "map.png"}); }, {"bare.obj", "no texture coordinates", "UVs"});
+    const Mesh mapped = loadMesh(write("a.obj", squareObj(0, false)), {folder_ / "map.png"});
+    EXPECT_EQ(mapped.tangents.size(), mapped.positions.size());
+    expectError([&] { loadMesh(write("a.obj", squareObj(0, false)), {folder_ / "none.png"}); }, {"none.png"});
+}
+
+// A material's map is found beside the mesh.
+TEST_F(MeshFileTest, MaterialsNameNormalMaps)
+{
+    NormalMap map(4, 4);
+    std::fill(map.normals.begin(), map.normals.end(), glm::vec3(0, 0, 1));
+    std::fill(map.confidence.begin(), map.confidence.end(), 1.0f);
+    saveNormalMap(folder_ / "map.png", map);
+    write("a.mtl", "newmtl clay\nKd 1 1 1\nmap_Kn map.png\n");
+    std::string text = "mtllib a.mtl\n" + squareObj(0, false);
+    text.insert(text.find("f 1"), "usemtl clay\n");
+    const Mesh mesh = loadMesh(write("a.obj", text));
+    ASSERT_TRUE(mesh.parts.at(0).normalMap);
+    EXPECT_EQ(mesh.parts[0].normalMap->width, 4);
+    EXPECT_EQ(mesh.parts[0].name, "square:clay");
+}
+
+// Corners of a cube without normals: each face keeps its own, though its vertices are shared.
+TEST_F(MeshFileTest, SmoothingKeepsSharpEdges)
+{
+    std::string text;
+    for (int i = 0; i < 8; ++i) {
+        text += fmt::format("v {} {} {}\n", i & 1, i >> 1 & 1, i >> 2);
+    }
+    const Mesh cube =
+        loadMesh(write("cube.obj", text + "f 1 3 4 2\nf 5 6 8 7\nf 1 2 6 5\nf 3 7 8 4\nf 1 5 7 3\nf 2 4 8 6\n"));
+    ASSERT_EQ(cube.triangleCount(), 12u);
+    for (size_t i = 0; i < cube.indices.size(); i += 3) {
+        const glm::vec3 a = cube.positions[cube.indices[i]];
+        const glm::vec3 flat = glm::normalize(
+            glm::cross(cube.positions[cube.indices[i + 1]] - a, cube.positions[cube.indices[i + 2]] - a));
+        for (size_t k = 0; k < 3; ++k) {
+            EXPECT_LT(degreesBetween(cube.normals[cube.indices[i + k]], flat), 0.01);
+        }
+    }
+}
+
+TEST_F(MeshFileTest, SmoothNormalsOfASphereAreItsOwn)
+{
+    const Mesh mesh = loadMesh(write("ball.obj", sphereObj(60, false)));
+    double worst = 0;
+    for (const uint32_t index : mesh.indices) {
+        worst = std::max(worst, degreesBetween(mesh.normals[index], glm::normalize(mesh.positions[index])));
+    }
+    // Rings of 3 degrees; next to the poles triangles on one side are larger.
+    EXPECT_LT(worst, 0.5);
+}
+
+} // namespace
+} // namespace nacre::test

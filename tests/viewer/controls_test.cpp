@@ -1,0 +1,230 @@
+#include "engine/viewer/controls.h"
+
+#include <set>
+
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+
+namespace nacre {
+namespace {
+
+constexpr const char* kSurface = "/s/horse.nacre";
+
+Choices someChoices()
+{
+    return {.surface = kSurface,
+            .materials = {{"horse", ""}, {"gold", "/m/gold.binary"}, {"grey", "lambert:0.5"}},
+            .targets = {{"horse", ""}, {"cloth", "/t/cloth.exr"}},
+            .captured = {{"a.png", {.direction = {0, 0, 1}}},
+                         {"b.png", {.direction = {0.6f, 0, 0.8f}, .irradiance = {1, 2, 3}}},
+                         {"c.png", {.direction = {0, 0.6f, 0.8f}}}}};
+}
+
+Session opened()
+{
+    Session session;
+    session.state.surface = kSurface;
+    resolveCaptured(session.state, someChoices().captured);
+    session.state.exposure = 1.0f;
+    session.opened = session.state;
+    return session;
+}
+
+Session after(std::initializer_list<KeyPress> keys, Session session = opened())
+{
+    const Choices choices = someChoices();
+    for (const KeyPress& key : keys) {
+        act(session, choices, key);
+    }
+    return session;
+}
+
+TEST(KeyTable, EveryActionHasAKeyAndAHelp)
+{
+    std::set<Action> bound, helped;
+    for (const KeyBinding& binding : keyBindings()) {
+        bound.insert(binding.action);
+    }
+    for (const ActionHelp& help : actionHelp()) {
+        EXPECT_TRUE(helped.insert(help.action).second) << help.text << " is there twice";
+    }
+    EXPECT_EQ(bound, helped);
+}
+
+// What a help line calls a key, pressed.
+KeyPress pressOf(const std::string& name)
+{
+    if (name == "Space") {
+        return {' '};
+    }
+    if (name == "Esc") {
+        return {kKeyEscape};
+    }
+    if (name == "F12") {
+        return {kKeyF12};
+    }
+    KeyPress press{.key = name.back()};
+    press.shift = name.starts_with("Shift+");
+    press.control = name.starts_with("Ctrl+");
+    return press;
+}
+
+TEST(KeyTable, TheHelpNamesTheKeysThatDoIt)
+{
+    for (const ActionHelp& help : actionHelp()) {
+        std::string keys = help.keys;
+        for (const char* between : {" or ", " to "}) {
+            if (const size_t at = keys.find(between); at != std::string::npos) {
+                const KeyBinding* second = bindingOf(pressOf(keys.substr(at + std::string(between).size())));
+                ASSERT_NE(second, nullptr) << help.keys;
+                EXPECT_EQ(second->action, help.action) << help.keys;
+                keys.resize(at);
+            }
+        }
+        const KeyBinding* binding = bindingOf(pressOf(keys));
+        ASSERT_NE(binding, nullptr) << keys;
+        EXPECT_EQ(binding->action, help.action) << keys;
+    }
+    EXPECT_EQ(bindingOf({'Q'}), nullptr);
+    EXPECT_EQ(bindingOf({'S'}), nullptr) << "without Ctrl";
+}
+
+TEST(Controls, KeysShowAndHide)
+{
+    EXPECT_EQ(after({{'N'}}).state.show, Show::normals);
+    EXPECT_EQ(after({{'N'}, {'N'}}).state.show, Show::picture);
+    EXPECT_EQ(after({{'C'}}).state.show, Show::coverage);
+    EXPECT_EQ(after({{'N'}, {'L'}}).state.show, Show::labels);
+    EXPECT_TRUE(after({{'H'}}).help);
+    EXPECT_TRUE(after({{.key = '/', .shift = true}}).help);
+    EXPECT_FALSE(after({{'H'}, {'H'}}).help);
+}
+
+TEST(Controls, ExposureStepsUpAndDown)
+{
+    EXPECT_EQ(*after({{'E'}}).state.exposure, 1 + kExposureStep);
+    EXPECT_EQ(*after({{'E'}, {.key = 'E', .shift = true}}).state.exposure, 1);
+}
+
+TEST(Controls, AHeldKeyStepsButDoesNotFlicker)
+{
+    EXPECT_EQ(*after({{'E'}, {.key = 'E', .isRepeat = true}}).state.exposure, 1 + 2 * kExposureStep);
+    EXPECT_EQ(after({{'N'}, {.key = 'N', .isRepeat = true}}).state.show, Show::normals);
+}
+
+TEST(Controls, EscapeClosesTheHelpFirst)
+{
+    const Session closed = after({{'H'}, {kKeyEscape}});
+    EXPECT_FALSE(closed.help);
+    EXPECT_FALSE(closed.wantsToQuit);
+    EXPECT_TRUE(after({{kKeyEscape}}).wantsToQuit);
+}
+
+TEST(Controls, MaterialsByNumber)
+{
+    const Session gold = after({{'2'}});
+    EXPECT_EQ(gold.state.material, "/m/gold.binary");
+    EXPECT_EQ(gold.state.surface, "");
+    EXPECT_EQ(gold.state.onto, kSurface) << "another material keeps the shape";
+    EXPECT_EQ(gold.state.lights[0].captured, 0) << "which names no captured lights";
+    EXPECT_EQ(chosenMaterial(gold.state, someChoices()), 1u);
+    const Session back = after({{'2'}, {'1'}});
+    EXPECT_EQ(back.state.surface, kSurface);
+    EXPECT_EQ(back.state.onto, "");
+    EXPECT_EQ(after({{'9'}}).state, opened().state) << "there is no ninth";
+}
+
+TEST(Controls, TargetsKeepTheMaterial)
+{
+    const Choices choices = someChoices();
+    Session session = after({{'2'}});
+    chooseTarget(session, choices, 1);
+    EXPECT_EQ(session.state.material, "/m/gold.binary");
+    EXPECT_EQ(session.state.onto, "/t/cloth.exr");
+    act(session, choices, {'1'});
+    EXPECT_EQ(session.state.surface, kSurface);
+    EXPECT_EQ(session.state.onto, "/t/cloth.exr");
+    chooseTarget(session, choices, 0);
+    EXPECT_EQ(session.state.onto, "");
+}
+
+TEST(Controls, CapturedLightsGoRound)
+{
+    const Session first = after({{']'}});
+    EXPECT_EQ(first.photograph, 0u);
+    EXPECT_EQ(after({{']'}, {']'}}).photograph, 1u);
+    EXPECT_EQ(after({{']'}, {'['}}).photograph, 2u);
+    const Session second = after({{']'}, {']'}});
+    ASSERT_EQ(second.state.lights.size(), 1u);
+    EXPECT_EQ(second.state.lights[0].captured, 2);
+    EXPECT_EQ(second.state.lights[0].irradiance, glm::vec3(1, 2, 3));
+}
+
+TEST(Controls, PhotographsNeedACapture)
+{
+    EXPECT_EQ(after({{'P'}}).comparison, Comparison::none);
+    Session session = opened();
+    session.hasPhotographs = true;
+    EXPECT_EQ(after({{'P'}}, session).comparison, Comparison::photograph);
+    EXPECT_EQ(after({{'P'}}, session).photograph, 0u) << "some light has to be on screen";
+    EXPECT_EQ(after({{'P'}, {'X'}}, session).comparison, Comparison::difference);
+    EXPECT_EQ(after({{'P'}, {'X'}, {'X'}}, session).comparison, Comparison::none);
+    Session moved = after({{'P'}}, session);
+    pointLight(moved, {0.5f, 0});
+    EXPECT_EQ(moved.comparison, Comparison::none) << "that light was not photographed";
+}
+
+TEST(Controls, ResetGoesBack)
+{
+    Session session = after({{'E'}, {'N'}, {'2'}, {' '}, {'W'}});
+    pointLight(session, {0.5f, 0.1f});
+    addLight(session);
+    act(session, someChoices(), {'R'});
+    EXPECT_EQ(session.state, opened().state);
+    EXPECT_FALSE(session.playing);
+}
+
+TEST(Controls, TheWipeShowsTheNextMaterial)
+{
+    EXPECT_EQ(after({{'W'}}).state.wipe.material, "/m/gold.binary");
+    EXPECT_EQ(after({{'2'}, {'W'}}).state.wipe.material, "lambert:0.5");
+    EXPECT_EQ(after({{'3'}, {'W'}}).state.wipe.material, kSurface) << "the surface's own, by its name";
+    EXPECT_EQ(after({{'W'}, {'W'}}).state.wipe, Wipe{});
+}
+
+TEST(Controls, LightsAreAddedMovedAndRemoved)
+{
+    Session session = opened();
+    addLight(session);
+    ASSERT_EQ(session.state.lights.size(), 2u);
+    EXPECT_EQ(session.light, 1u);
+    const LightSource first = session.state.lights[0];
+    dragLight(session, {50, 0}, 720);
+    EXPECT_EQ(session.state.lights[0], first) << "only the chosen one moves";
+    removeLight(session);
+    EXPECT_EQ(session.state.lights, std::vector<LightSource>{first});
+    removeLight(session);
+    EXPECT_EQ(session.state.lights.size(), 1u) << "something has to light the scene";
+}
+
+TEST(Controls, ARightDragFollowsTheMouse)
+{
+    Session session = opened(); // its light stands in front
+    dragLight(session, {0, -90}, 720);
+    EXPECT_NEAR(session.state.lights[0].direction.y, 0.5, 1e-5) << "up by half of a ball's radius: 180 pixels";
+    EXPECT_NEAR(session.state.lights[0].direction.x, 0, 1e-6);
+    EXPECT_EQ(session.state.lights[0].captured, 0);
+}
+
+TEST(Controls, TheLightPathIsOnceAround)
+{
+    Session session = after({{']'}, {']'}});
+    const glm::vec3 start = session.state.lights[0].direction;
+    play(session, kSecondsAround / 4);
+    EXPECT_LT(glm::distance(session.state.lights[0].direction, glm::vec3(0, 0.6f, 0.8f)), 1e-5f);
+    play(session, 3 * kSecondsAround / 4);
+    EXPECT_LT(glm::distance(session.state.lights[0].direction, start), 1e-5f);
+}
+
+} // namespace
+} // namespace nacre

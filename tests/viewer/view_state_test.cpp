@@ -1,0 +1,116 @@
+#include "engine/viewer/view_state.h"
+
+#include <gtest/gtest.h>
+
+#include "engine/scene/whole_file.h"
+#include "engine/viewer/choices.h"
+#include "tests/support/expect_error.h"
+#include "tests/support/temp_folder.h"
+
+namespace nacre {
+namespace {
+
+// Every field differs from its default.
+ViewState fullState(const std::filesystem::path& folder)
+{
+    return {
+        .surface = folder / "a" / "horse.nacre",
+        .material = "ggx:alpha=0.2",
+        .onto = folder / "cloth.exr",
+        .normalY = "dx",
+        .size = "640x480",
+        .lights = {{.captured = 3},
+                   {.direction = {0.1f, -0.7f, 0.33333334f}, .irradiance = {1.1f, 0.3f, 7e-5f}, .softDegrees = 12.5f},
+                   {.direction = {0, 0, 2}, .on = false}},
+        .environment = folder / "sky.hdr",
+        .environmentLights = 64,
+        .environmentTurn = -33.3f,
+        .exposure = 0.1f,
+        .toneCurve = kToneFilmic,
+        .view = "0.1,0,1",
+        .path = "direct",
+        .show = Show::coverage,
+        .framing = {.zoom = 1.7f, .centre = {100.1f, 30.3f}},
+        .shadows = true,
+        .materials = {"lambert:0.5", "merl:/x/gold.binary"},
+        .targets = {folder / "head.nacre"},
+        .wipe = {.material = "lambert:0.5", .at = 0.3f}};
+}
+
+ViewState throughFile(const ViewState& state, const std::filesystem::path& file)
+{
+    writeTextFile(file, textOf(sceneFileOf(state), file.parent_path()));
+    SceneFile scene;
+    completeScene(scene, file);
+    return viewStateOf(scene);
+}
+
+TEST(ViewState, ComesBackFromItsFileToTheBit)
+{
+    const TempFolder folder;
+    const ViewState state = fullState(folder.path());
+    EXPECT_EQ(throughFile(state, folder / "state.json"), state);
+    EXPECT_EQ(throughFile({}, folder / "empty.json"), ViewState{});
+}
+
+TEST(ViewState, PathsAreRelativeToTheFile)
+{
+    const TempFolder folder;
+    std::filesystem::create_directory(folder / "deep");
+    const std::string text = textOf(sceneFileOf(fullState(folder.path())), folder / "deep");
+    EXPECT_NE(text.find("\"../a/horse.nacre\""), std::string::npos) << text;
+    EXPECT_EQ(text.find(folder.path().string()), std::string::npos) << text;
+}
+
+TEST(ViewState, WhatIsSetAlreadyWins)
+{
+    const TempFolder folder;
+    writeText(folder / "s.json", R"({"format": "nacre scene", "version": 1, "light": ["0,0,1"], "exposure": 2})");
+    SceneFile scene;
+    scene.lights = {"captured:2"};
+    completeScene(scene, folder / "s.json");
+    EXPECT_EQ(scene.lights, std::vector<std::string>{"captured:2"});
+    EXPECT_EQ(scene.exposure, 2.0f);
+}
+
+TEST(ViewState, RefusesWhatItDoesNotKnow)
+{
+    const TempFolder folder;
+    const auto refused = [&](const std::string& keys, const std::vector<std::string>& fragments) {
+        writeText(folder / "s.json", R"({"format": "nacre scene", "version": 1, )" + keys + "}");
+        SceneFile scene;
+        expectError([&] { completeScene(scene, folder / "s.json"); }, fragments);
+    };
+    refused(R"("colour": 1)", {"s.json", "unknown key 'colour'"});
+    refused(R"("window": {"colour": 1})", {"s.json", "unknown key 'colour'", "window"});
+    refused(R"("light": "0,0,1")", {"s.json", "is not understood"});
+    refused(R"("exposure": "bright")", {"s.json", "is not understood"});
+}
+
+TEST(LightSource, TextIsTheInverse)
+{
+    for (const char* text :
+         {"0.3,0.4,0.87", "captured:7", "off:captured:7", "soft:10:0,0.5,1,1,0.9,0.8", "off:soft:2.5:captured:1"}) {
+        EXPECT_EQ(textOf(lightSourceFromText(text)), text);
+    }
+}
+
+TEST(LightSource, OffLightsGiveNothing)
+{
+    const std::vector<LightSource> sources = {lightSourceFromText("off:0,0,1"), lightSourceFromText("0,0,3")};
+    const std::vector<Light> lights = lightsOf(sources, {});
+    ASSERT_EQ(lights.size(), 1u);
+    EXPECT_EQ(lights[0].direction, glm::vec3(0, 0, 1));
+}
+
+TEST(LightSource, RefusesWhatIsNoLight)
+{
+    for (const char* text : {"", "1,2", "0,0,0", "0,0,-1", "1,2,3,-1,0,0", "captured:0", "soft:0:0,0,1",
+                             "soft:91:0,0,1", "off:", "soft:5:off:0,0,1"}) {
+        expectError([&] { lightSourceFromText(text); }, {"--light"}, Error::kUsage);
+    }
+    expectError([] { lightOf({.captured = 2}, {}); }, {"no captured light"}, Error::kUsage);
+}
+
+} // namespace
+} // namespace nacre
