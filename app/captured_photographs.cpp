@@ -158,6 +158,7 @@ Photographs photographsOf(const std::filesystem::path& capture, const std::files
     const auto held = std::make_shared<Held>();
     return {.load = [=](const auto& progress,
                         const auto& isCancelled) { load(*held, capture, surface, progress, isCancelled); },
+            .size = [=] { return glm::ivec2(held->capture.width, held->capture.height); },
             .picture = [=](size_t light) { return pictureUnder(*held, light); },
             .observations = [=](size_t pixel) { return observationsAt(*held, pixel); },
             .peak = [=] { return held->peak; }};

@@ -39,7 +39,7 @@ Image materialBall(const BrdfModel& model, std::span<const Light> lights, int si
 
 Image materialThumbnail(const BrdfModel& model, int size)
 {
-    constexpr float kSurroundings = 0.08f;       // radiance beside the key's irradiance of 1
+    constexpr float kSurroundings = 0.04f;       // radiance beside the key's irradiance of 1
     constexpr std::array kAngles{0, 30, 55, 75}; // degrees; flatter views have the last one's
     const std::vector<Light> key = lightsOfRig("key");
     std::array<glm::vec3, kAngles.size()> albedos;

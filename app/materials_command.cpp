@@ -159,7 +159,7 @@ nlohmann::json summaryOf(const PackedLibrary& library, double seconds)
     };
     nlohmann::json json = {
         {"materials", library.surface.materials.size()}, {"fullBytes", library.fullBytes}, {"seconds", seconds}};
-    if (!shared.steps.empty()) {
+    if (shared.apart.bytes > 0) {
         json["apart"] = jsonOf(shared.apart);
         json["taken"] = jsonOf(takenStep(shared));
     }

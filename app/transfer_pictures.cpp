@@ -16,6 +16,9 @@ namespace {
 
 constexpr int kLargestCell = 512; // pixels of a sheet's cell
 constexpr const char* kBall = "ball";
+// Up to so many lights every pixel looks each of them up; beyond, all are collapsed into a ball, whose texels show
+// where a single light's shadow begins.
+constexpr size_t kMostDirectLights = 16;
 
 using Clock = std::chrono::steady_clock;
 
@@ -43,6 +46,14 @@ Image shrunk(const Image& picture, int box)
         }
     }
     return small;
+}
+
+// What fits below a cell.
+std::string captionOf(const std::string& text, int cellWidth)
+{
+    constexpr int kLetterWidth = 7; // pixels, of most letters of a sheet
+    const size_t letters = static_cast<size_t>(std::max(cellWidth / kLetterWidth, 4));
+    return text.size() <= letters ? text : text.substr(0, letters - 2) + "..";
 }
 
 struct CellSize {
@@ -94,7 +105,6 @@ private:
         auto start = Clock::now();
         Scene scene{.surface = std::move(surface), .lights = {}};
         renderer_.setSurface(scene.surface, ballSizes_);
-        ballSizes_ = renderer_.ballSizes();
         for (size_t rig = 0; rig < sources_.rigs.size(); ++rig) {
             scene.lights = sources_.rigs[rig].lights;
             TransferPicture picture{sources_.rigs[rig].name, sources_.rows[row].name, target};
@@ -103,7 +113,7 @@ private:
             picture.unmeasured = unmeasuredShare(scene).pixels;
             const std::string caption =
                 fmt::format("{}: {} {}{}", picture.rig, picture.row, target == kBall ? "" : "on ", target);
-            sheets_[rig][row].push_back({shrunk(first, cell_.box), caption});
+            sheets_[rig][row].push_back({shrunk(first, cell_.box), captionOf(caption, cell_.width)});
             pictures_.push_back(std::move(picture));
             start = Clock::now();
         }
@@ -127,14 +137,18 @@ private:
     Image save(const Scene& scene, const TransferPicture& picture)
     {
         RenderArguments arguments;
+        RenderOutput output = output_;
+        output.path = scene.lights.size() <= kMostDirectLights ? RenderPath::direct : RenderPath::automatic;
         const char* between = picture.target == kBall ? "" : "on_";
         arguments.output = folder_ / fmt::format("{}_{}_{}{}.png", picture.rig, picture.row, between, picture.target);
-        renderFrames(renderer_, arguments, output_, scene);
-        if (output_.frames > 1) {
-            RenderOutput moving = output_;
-            moving.isAnimation = true;
+        renderFrames(renderer_, arguments, output, scene);
+        if (output.frames > 1) {
+            output.isAnimation = true;
             arguments.output.replace_extension(".webp");
-            renderFrames(renderer_, arguments, moving, scene);
+            renderFrames(renderer_, arguments, output, scene);
+        }
+        if (output.path == RenderPath::automatic) {
+            ballSizes_ = renderer_.ballSizes();
         }
         renderer_.setLights(movedLights(scene.lights, output_.motion, 0, output_.frames));
         return renderer_.picture();

@@ -14,7 +14,8 @@ struct TransferPicture {
 };
 
 // RIG_MATERIAL_on_TARGET.png (with frames numbered, and the same as .webp), RIG_MATERIAL_ball.png, and sheet_RIG.png
-// with all of a rig: materials down, the ball and the targets across; sheet.png with all of several rigs. `folder` exists.
+// with all of a rig: materials down, the ball and the targets across; sheet.png with all of several rigs. `folder`
+// exists.
 std::vector<TransferPicture> saveTransferPictures(const std::filesystem::path& folder, const TransferSources& sources,
                                                   const RenderOutput& output, const Context& context);
 

@@ -10,12 +10,12 @@ namespace {
 using glm::dvec3;
 
 // Moves both ends towards their rest distance, each by half; a pinned one not at all.
-void correct(ClothSheet& sheet, size_t a, size_t b, double rest, double share, bool stretchOnly)
+void correct(ClothSheet& sheet, size_t a, size_t b, double rest, double share)
 {
     const dvec3 apart = sheet.places[b] - sheet.places[a];
     const double length = glm::length(apart);
     const double weight = static_cast<double>(2 - sheet.pinned[a] - sheet.pinned[b]);
-    if (weight == 0 || length == 0 || (stretchOnly && length < rest)) {
+    if (weight == 0 || length == 0) {
         return;
     }
     const dvec3 move = apart * (share * (length - rest) / (length * weight));
@@ -26,10 +26,9 @@ void correct(ClothSheet& sheet, size_t a, size_t b, double rest, double share, b
 struct Link {
     int columns, rows;
     double share;
-    bool stretchOnly;
 };
 
-// Ends alternate in direction, so that the cloth does not creep to one side.
+// Sweeps alternate in direction, so that the cloth does not creep to one side.
 void correctAll(ClothSheet& sheet, const Link& link, bool backwards)
 {
     const double rest = sheet.edge * std::hypot(link.columns, link.rows);
@@ -38,8 +37,7 @@ void correctAll(ClothSheet& sheet, const Link& link, bool backwards)
     for (int i = 0; i < count; ++i) {
         const int k = backwards ? count - 1 - i : i;
         const int column = k % columns + (link.columns < 0 ? -link.columns : 0), row = k / columns;
-        correct(sheet, sheet.index(column, row), sheet.index(column + link.columns, row + link.rows), rest, link.share,
-                link.stretchOnly);
+        correct(sheet, sheet.index(column, row), sheet.index(column + link.columns, row + link.rows), rest, link.share);
     }
 }
 
@@ -76,14 +74,14 @@ ClothSheet refinedSheet(const ClothSheet& sheet)
 void settle(ClothSheet& sheet, const ClothForces& forces, int steps)
 {
     // Threads do not stretch, the weave shears easily, and bending resists over two edges' length.
-    const Link links[] = {{1, 0, 1.0, false},
-                          {0, 1, 1.0, false},
-                          {1, 1, 0.15, false},
-                          {-1, 1, 0.15, false},
-                          {2, 0, forces.bending, false},
-                          {0, 2, forces.bending, false},
-                          {4, 0, 0.5 * forces.bending, false},
-                          {0, 4, 0.5 * forces.bending, false}};
+    const Link links[] = {{1, 0, 1.0},
+                          {0, 1, 1.0},
+                          {1, 1, 0.15},
+                          {-1, 1, 0.15},
+                          {2, 0, forces.bending},
+                          {0, 2, forces.bending},
+                          {4, 0, 0.5 * forces.bending},
+                          {0, 4, 0.5 * forces.bending}};
     std::vector<dvec3> before = sheet.places;
     const dvec3 fall(0, -forces.gravity * forces.stepSeconds * forces.stepSeconds, 0);
     for (int step = 0; step < steps; ++step) {

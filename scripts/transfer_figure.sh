@@ -5,12 +5,10 @@
 set -euo pipefail
 nacre=$1 work=$2 picture=${3:-docs/transfer.png}
 mkdir -p "$work"
-synth() { # name, material
-    "$nacre" synth "$work/$1" --material "$2" --size 256 --quiet --force
-    "$nacre" acquire "$work/$1" -o "$work/$1.nacre" --range front --quiet --force
-}
-synth red-plastic "ggx:diffuse=0.42,0.05,0.04;specular=0.05;alpha=0.18"
-synth bronze "ggx:diffuse=0.05,0.03,0.01;specular=0.7,0.45,0.2;alpha=0.3"
-"$nacre" transfer --materials "$work/red-plastic.nacre,$work/bronze.nacre" --onto make:cloth,make:head --rig key,three-point \
-    --size 300x300 -o "$work/transfer" --force
+capture="$work/plastic-capture" plastic="$work/red-plastic.nacre"
+# Lights nearly to the side, so that the rim of three-point asks for nothing that was not measured.
+"$nacre" synth "$capture" --material "ggx:diffuse=0.42,0.05,0.04;specular=0.05;alpha=0.18" --lights 64 --cap-degrees 84 --size 256 \
+    --quiet --force
+"$nacre" acquire "$capture" -o "$plastic" --quiet --force
+"$nacre" transfer --materials "$plastic" --onto make:cloth,make:head --rig key,three-point --size 250x250 -o "$work/transfer" --force
 cp "$work/transfer/sheet.png" "$picture"

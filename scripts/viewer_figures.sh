@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# viewer_figures.sh [NACRE]: frames a second while a light is dragged (four lights, the surface fills a window of
-# 1280x720), and what share of a core the window takes when nothing moves. Prints the table of docs/viewer.md.
+# viewer_figures.sh [NACRE]: frames a second in a window of 1280x720 while one of four lights is dragged, and what share
+# of a core the window takes when nothing moves. Prints the figures of docs/viewer.md.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 nacre=$(realpath "${1:-build/release/app/nacre}")
@@ -11,21 +11,44 @@ require_window_tools
 mkdir -p "$shots"
 make_scene
 start_display 1280x720
-open_window "$work/bumpy.nacre" --size 730x694 --light 0.3,0.4,0.87 --light=-0.6,0.2,0.8,0.3,0.5,1 \
-    --light 0.5,-0.5,0.7,0.8,0.6,0.3 --light=0,0.7,0.7,0.2,0.2,0.2
-sleep 4
+lights=(--light 0.3,0.4,0.87 --light=-0.6,0.2,0.8,0.3,0.5,1 --light 0.5,-0.5,0.7,0.8,0.6,0.3 --light=0,0.7,0.7,0.2,0.2,0.2)
 
 ticks() { awk '{ print $14 + $15 }' "/proc/$window_id/stat"; } # hundredths of a second of one core
+
+# Drags a light for so many seconds, quits, and prints how many pictures the window showed since it opened, and the
+# processor's time that it took.
+pictures_after() { # SECONDS
+    open_window "$work/bumpy.nacre" --size "$size" "${lights[@]}"
+    sleep 3
+    if [ "$1" -gt 0 ]; then
+        xdotool mousemove 1116 100 mousedown 1
+        local moves=() end=$((SECONDS + $1)) # one call for many moves: starting it takes longer than a frame
+        for s in 0 2 4 6 8 10 12 14 16 18 20 22 24 26 28 26 24 22 20 18 16 14 12 10 8 6 4 2; do
+            moves+=(mousemove $((1100 + s)) $((100 + s)) sleep 0.008)
+        done
+        while [ $SECONDS -lt $end ]; do xdotool "${moves[@]}" "${moves[@]}"; done
+        title=$(xdotool getwindowname "$x_window")
+        echo "            ${title##* - }" >&2
+        xdotool mouseup 1
+    fi
+    local busy
+    busy=$(ticks)
+    press Escape
+    wait "$window_id"
+    window_id=
+    awk -v b="$busy" '/^showed/ { print $2, b }' "$work/out"
+}
+
+seconds=8
+for size in 320x320 730x694 1280x720; do
+    start=$(pictures_after 0) moved=$(pictures_after $seconds)
+    echo "$start $moved" | awk -v s=$seconds -v z=$size '{ n = $3 - $1
+        printf "dragging    %.0f frames a second, %.0f ms of processor time each, surface of %s\n", n / s, 10 * ($4 - $2) / n, z }'
+done
+
+size=730x694
+open_window "$work/bumpy.nacre" --size "$size" "${lights[@]}"
+sleep 3
 idle=10
 before=$(ticks); sleep $idle; after=$(ticks)
 awk -v t=$((after - before)) -v s=$idle 'BEGIN { printf "idle        %.1f %% of one core over %d s\n", t / s, s }'
-
-# Frames that were presented, as the program's own log of them counts.
-seconds=6
-kill -USR1 "$window_id"; sleep 0.1
-xdotool mousemove 1130 110 mousedown 1
-end=$((SECONDS + seconds))
-while [ $SECONDS -lt $end ]; do
-    for step in 0 4 8 12 16 20 24 28 24 20 16 12 8 4; do xdotool mousemove $((1116 + step)) $((100 + step)); done
-done
-xdotool mouseup 1

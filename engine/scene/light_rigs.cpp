@@ -29,7 +29,7 @@ Light lightAt(float polar, float azimuth, const glm::vec3& irradiance)
     return lightFrom({std::sin(p) * std::cos(a), std::sin(p) * std::sin(a), std::cos(p)}, irradiance);
 }
 
-const Light kKey = lightAt(45, 137, glm::vec3(1));
+const Light kKey = lightAt(38, 137, glm::vec3(1));
 
 std::vector<Light> ring()
 {
@@ -85,7 +85,7 @@ constexpr std::array<NamedRig, 5> kRigs{
     {{"key", [] { return std::vector<Light>{kKey}; }},
      {"three-point",
       [] {
-          return std::vector<Light>{lightAt(45, 140, {1.0f, 0.88f, 0.72f}), lightAt(50, 10, {0.16f, 0.2f, 0.27f}),
+          return std::vector<Light>{lightAt(38, 140, {1.0f, 0.88f, 0.72f}), lightAt(38, 10, {0.16f, 0.2f, 0.27f}),
                                     lightAt(82, 40, {0.6f, 0.66f, 0.75f})};
       }},
      {"raking", [] { return std::vector<Light>{lightAt(78, 170, glm::vec3(1))}; }},

@@ -8,7 +8,7 @@
 namespace nacre {
 
 // Lights that show a shape or a material, by a name:
-//   key          one from the upper left, 45 degrees off the view
+//   key          one from the upper left, 38 degrees off the view: as far as most captures' lights go
 //   three-point  a warm key, a weak cool fill from the other side, a rim from the upper right, nearly from the side
 //   raking       one that grazes from the left, 78 degrees off the view: every bump shows
 //   ring         16 alike all around the camera, 40 degrees off the view

@@ -6,8 +6,21 @@
 #include <fmt/format.h>
 
 #include "engine/scene/measures.h"
+#include "engine/scene/normal_map.h"
 
 namespace nacre {
+
+Image fittedPicture(const Image& picture, int width, int height)
+{
+    const std::vector<int64_t> from = fittedPixels(picture.width, picture.height, width, height);
+    Image fitted(width, height, 3);
+    for (size_t i = 0; i < from.size(); ++i) {
+        for (size_t c = 0; from[i] >= 0 && c < 3; ++c) {
+            fitted.values[3 * i + c] = picture.values[3 * static_cast<size_t>(from[i]) + c];
+        }
+    }
+    return fitted;
+}
 
 Image comparisonPicture(Comparison comparison, const Image& photograph, const Image& render, const Display& display)
 {

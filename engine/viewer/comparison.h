@@ -11,6 +11,9 @@ namespace nacre {
 
 inline constexpr float kDifferenceGain = 2; // of codes, around middle grey
 
+// The picture fitted into another size as surfaces are (fittedPixels), 0 outside.
+Image fittedPicture(const Image& picture, int width, int height);
+
 // What stands in place of the render: the photograph exposed as the render is, or the difference of both's codes,
 // brighter than middle grey where the photograph is.
 Image comparisonPicture(Comparison comparison, const Image& photograph, const Image& render, const Display& display);

@@ -35,6 +35,21 @@ void showLobe(const Session& session, const PanelInputs& inputs, const glm::vec3
     }
 }
 
+// `pixel` of the surface that is drawn, which may be fitted into another size.
+void showObservations(const PanelInputs& inputs, size_t pixel)
+{
+    const NormalMap& normals = inputs.drawn->surface.normals;
+    const glm::ivec2 size = inputs.photographs->size();
+    const int64_t from = fittedPixels(size.x, size.y, normals.width, normals.height)[pixel];
+    const auto observations =
+        from < 0 ? std::vector<PixelObservation>{} : inputs.photographs->observations(static_cast<size_t>(from));
+    if (observations.empty()) {
+        ImGui::TextDisabled("no observations here");
+    } else {
+        plotObservations(observations, kPlotHeight * inputs.scale);
+    }
+}
+
 } // namespace
 
 void showInspectorPanel(const Session& session, const PanelInputs& inputs)
@@ -57,8 +72,8 @@ void showInspectorPanel(const Session& session, const PanelInputs& inputs)
         return;
     }
     ImGui::Text("normal %+.3f %+.3f %+.3f", n.x, n.y, n.z);
-    ImGui::Text("%.1f\xC2\xB0 from the view, confidence %.2f", glm::degrees(std::atan2(glm::length(glm::vec2(n)), n.z)),
-                surface.normals.confidence[i]);
+    ImGui::Text("%.1f\xC2\xB0 from the view", glm::degrees(std::atan2(glm::length(glm::vec2(n)), n.z)));
+    ImGui::Text("confidence %.2f", surface.normals.confidence[i]);
     if (!surface.albedo.values.empty()) {
         const glm::vec3 a = surface.albedo.rgb(inputs.pixel->x, inputs.pixel->y);
         ImGui::Text("albedo %.2f %.2f %.2f", a.r, a.g, a.b);
@@ -67,12 +82,7 @@ void showInspectorPanel(const Session& session, const PanelInputs& inputs)
         showLobe(session, inputs, n, surface.materials[label]);
     }
     if (inputs.photographs != nullptr) {
-        const std::vector<PixelObservation> observations = inputs.photographs->observations(i);
-        if (observations.empty()) {
-            ImGui::TextDisabled("no observations: outside of the capture's mask");
-        } else {
-            plotObservations(observations, kPlotHeight * inputs.scale);
-        }
+        showObservations(inputs, i);
     }
 }
 

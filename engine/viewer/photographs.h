@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include <glm/vec3.hpp>
+#include <glm/vec2.hpp>
 
 #include "engine/scene/image.h"
 
@@ -23,7 +23,9 @@ struct PixelObservation {
 struct Photographs {
     // Reads them; tells the share that is done, and stops early where asked to.
     std::function<void(const std::function<void(float)>& progress, const std::atomic<bool>& isCancelled)> load;
-    // After load. Linear radiance of one, as wide and high as the surface, 0 outside of the object.
+    // After load. Pixels of each.
+    std::function<glm::ivec2()> size;
+    // Linear radiance of one, 0 outside of the object.
     std::function<Image(size_t light)> picture;
     std::function<std::vector<PixelObservation>(size_t pixel)> observations;
     std::function<double()> peak; // 99th percentile of all values, which PSNR is relative to

@@ -69,7 +69,7 @@ void plotLobe(std::span<const LobeSample> samples, float incidence, float height
                      place(samples[i + 1].angle, reach * meanOf(samples[i + 1].f) / largest),
                      isMeasured ? IM_COL32(120, 220, 140, 255) : IM_COL32(120, 220, 140, 90), 1.5f);
     }
-    ImGui::TextDisabled("f up to %.3g / sr, dim: not measured", largest);
+    ImGui::TextDisabled("f to %.3g / sr (dim: guessed)", largest);
 }
 
 void plotObservations(std::span<const PixelObservation> observations, float height)
@@ -93,7 +93,7 @@ void plotObservations(std::span<const PixelObservation> observations, float heig
         list.AddLine({model.x - 3, model.y}, {model.x + 3, model.y}, IM_COL32(120, 220, 140, 160));
         list.AddCircleFilled(dot, 2.2f, colourOf(o.verdict));
     }
-    ImGui::TextDisabled("I / E over n\xC2\xB7l, 0 to 1; green: model");
+    ImGui::TextDisabled("I / E over n\xC2\xB7l; green: model");
     for (const VerdictColour& c : kVerdictColours) {
         const auto count = std::count_if(observations.begin(), observations.end(),
                                          [&](const PixelObservation& o) { return o.verdict == c.verdict; });

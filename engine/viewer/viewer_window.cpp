@@ -23,6 +23,7 @@ constexpr float kStatusHeight = 26;
 constexpr double kProgressSeconds = 0.1; // between looks at what is loading
 constexpr glm::vec3 kBackground{0.11f, 0.11f, 0.12f};
 constexpr int kFramesToSettle = 3;
+constexpr size_t kFewLights = 16; // of which the light ball's few pixels are drawn sooner than another ball is made
 
 double secondsSince(std::chrono::steady_clock::time_point start)
 {
@@ -63,6 +64,7 @@ void ViewerWindow::run()
             drawFrame();
         }
     }
+    fmt::print("showed       {} pictures\n", shownFrames_);
 }
 
 // 0 while something moves; negative where nothing does until something happens.
@@ -113,6 +115,8 @@ Framing ViewerWindow::framing() const
 void ViewerWindow::applyState()
 {
     pictures_.apply(session_.state, view_, choices_.captured);
+    const bool isFew = pictures_.lights().size() <= kFewLights;
+    ball_.setPath(isFew ? RenderPath::direct : RenderPath::automatic);
     ball_.setLights(pictures_.lights());
     ball_.setDisplay(pictures_.display());
 }
@@ -141,12 +145,8 @@ void ViewerWindow::drawComparison()
         return;
     }
     const Surface& surface = pictures_.scene().main->surface;
-    const Image photograph = photographs_->picture(*session_.photograph);
-    if (photograph.width != surface.normals.width || photograph.height != surface.normals.height) {
-        session_.comparison = Comparison::none;
-        message_ = "photographs are compared on the shape that they show, in its own size";
-        return;
-    }
+    const Image photograph =
+        fittedPicture(photographs_->picture(*session_.photograph), surface.normals.width, surface.normals.height);
     compared_ = now;
     comparedBy_ = session_.comparison;
     comparison_ = uploadPicture(context_, comparisonPicture(session_.comparison, photograph,
@@ -172,6 +172,7 @@ void ViewerWindow::drawFrame()
         swapchain_.rebuild();
         framesLeft_ = kFramesToSettle;
     }
+    ++shownFrames_;
     showTitle(secondsSince(lastFrame_));
     if (session_.playing) {
         play(session_, static_cast<float>(std::max(frameSeconds_, 1 / kMostFramesPerSecond)));

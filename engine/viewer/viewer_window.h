@@ -88,7 +88,8 @@ private:
     glm::vec2 cursor_{0, 0};
     int framesLeft_ = 3; // ImGui settles over a few frames
     Clock::time_point lastFrame_ = Clock::now();
-    double frameSeconds_ = 0;
+    double frameSeconds_ = 0; // of one, smoothed
+    size_t shownFrames_ = 0;
 
     Loader sceneLoader_{Window::wake}; // gone first: its jobs refer to what is above
     Loader photographLoader_{Window::wake};

@@ -23,6 +23,7 @@ const Rule kRules[] = {
      {"engine/target", "assimp", "GLFW", "imgui", "OpenImageIO", "acquisition/", "assets/", "app/", "Eigen",
       "nanoflann"}},
     {"engine/target", {"GLFW", "imgui", "OpenImageIO", "acquisition/", "assets/", "app/", "Eigen", "nanoflann"}},
+    {"engine/viewer", {"OpenImageIO", "acquisition/", "assets/", "evaluation/", "app/", "Eigen", "nanoflann"}},
     {"acquisition",
      {"assimp", "engine/target", "vulkan", "GLFW", "imgui", "OpenImageIO", "engine/gpu", "assets/", "app/"}},
     {"evaluation", {"GLFW", "imgui", "OpenImageIO", "app/"}},

@@ -79,7 +79,7 @@ TEST_F(LibraryTest, APictureIsThatOfRender)
     ASSERT_EQ(run.exitCode, 0) << run.err;
     ASSERT_EQ(runNacre({"target", "make:head", "--size", "64x48", "-o", path("head.nacre")}).exitCode, 0);
     const ProgramRun render = runNacre({"render", "--material", material, "--onto", path("head.nacre"),
-                                        "--light=0.3,0.4,0.87", "-o", path("render.png")});
+                                        "--light=0.3,0.4,0.87", "--path", "direct", "-o", path("render.png")});
     ASSERT_EQ(render.exitCode, 0) << render.err;
     EXPECT_EQ(loadImage(path("out/rig-1_a_on_head.png")).values, loadImage(path("render.png")).values);
 }
@@ -206,6 +206,7 @@ TEST_F(LibraryTest, WhatCannotBeTransferredIsRefusedWhole)
 
 TEST_F(LibraryTest, MaterialsAreListedAndBrokenOnesDoNotStopThem)
 {
+    fs::create_directories(folder_ / "shelf/box");
     saveMaterials("shelf/one.nacre", {"skin"});
     saveMaterials("shelf/box/two.nacre", {"cloth", "leather"});
     saveBrdfTable(folder_ / "shelf/table.exr", frontMaterial("t", glm::vec3(0.2f)).table);

@@ -198,7 +198,8 @@ double shareThatDiffers(const Heights& heights, int azimuths)
 {
     const HorizonMap map = horizonMap(heights.normals, heights.height, azimuths);
     size_t differing = 0, all = 0;
-    for (const float azimuth : {3.0f, 37.7f, 62.3f, 97.0f, 128.6f, 151.1f, 184.2f, 218.0f, 245.5f, 275.0f, 313.4f, 339.3f}) {
+    for (const float azimuth :
+         {3.0f, 37.7f, 62.3f, 97.0f, 128.6f, 151.1f, 184.2f, 218.0f, 245.5f, 275.0f, 313.4f, 339.3f}) {
         for (const float elevation : {15.0f, 30.0f, 50.0f}) {
             const glm::vec3 light = lightAt(azimuth, elevation);
             const std::vector<float> lit = shares(map, light);
