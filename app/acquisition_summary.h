@@ -24,8 +24,6 @@ std::string describeDisagreement(const Capture& capture, const std::vector<size_
 
 std::string describeBrdf(const Acquisition& acquisition);
 std::string describe(const InterpolationChoice& choice); // empty where nothing was chosen
-std::string describe(const ModelLadder& ladder);         // empty where none was asked for
-std::string describe(const SharedLadder& ladder);        // empty where nothing can be shared
 // Size, coordinates and measured share of a table, as the end of a sentence.
 std::string describe(const BrdfTable& table);
 // Polar angle and azimuth in degrees, irradiance: one row under the heading kLightColumns.

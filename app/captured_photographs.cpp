@@ -51,13 +51,20 @@ void append(Observations& all, const Observations& block)
     all.saturated.insert(all.saturated.end(), block.saturated.begin(), block.saturated.end());
 }
 
-std::vector<size_t> photographsOfLights(const Surface& surface, const Capture& capture)
+std::vector<size_t> photographsOfLights(const Surface& surface, const Capture& capture,
+                                        const std::filesystem::path& folder)
 {
     std::vector<size_t> found;
     for (const CapturedLight& light : surface.lights) {
         const auto at = std::find_if(capture.photographs.begin(), capture.photographs.end(),
                                      [&](const Photograph& p) { return p.name == light.photograph; });
         found.push_back(static_cast<size_t>(at - capture.photographs.begin()));
+    }
+    if (std::find_if(found.begin(), found.end(), [&](size_t i) { return i < capture.photographs.size(); }) ==
+        found.end()) {
+        throw Error(folder, "has none of the photographs that the surface was measured from",
+                    surface.lights.empty() ? "a surface with captured lights"
+                                           : fmt::format("{} among them", surface.lights.front().photograph));
     }
     return found;
 }
@@ -72,18 +79,24 @@ double peakOf(const Observations& all)
     return values.empty() ? 1.0 : std::max(quantile(values, 0.99), 1e-9f);
 }
 
-void load(Held& held, const std::filesystem::path& captureFolder, const std::filesystem::path& surfaceFolder,
-          const std::function<void(float)>& progress, const std::atomic<bool>& isCancelled)
+std::shared_ptr<Held> heldOf(const std::filesystem::path& capture, const std::filesystem::path& surface)
 {
-    held.surface = loadSurface(surfaceFolder);
-    held.capture = loadCapture(captureFolder);
-    require(held, captureFolder);
+    auto held = std::make_shared<Held>();
+    held->surface = loadSurface(surface);
+    held->capture = loadCapture(capture);
+    require(*held, capture);
+    held->photographOf = photographsOfLights(held->surface, held->capture, capture);
+    return held;
+}
+
+void load(Held& held, const std::function<void(float)>& progress, const std::atomic<bool>& isCancelled)
+{
+    held.all = {}; // what a cancelled reading left
     ObservationReader reader(held.capture, 0, kBlockBytes);
     for (Observations block; !isCancelled && reader.next(block);) {
         append(held.all, block);
         progress(static_cast<float>(held.all.pixels.size()) / static_cast<float>(held.capture.maskPixels));
     }
-    held.photographOf = photographsOfLights(held.surface, held.capture);
     held.peak = peakOf(held.all);
 }
 
@@ -155,9 +168,8 @@ std::vector<PixelObservation> observationsAt(const Held& held, size_t pixel)
 
 Photographs photographsOf(const std::filesystem::path& capture, const std::filesystem::path& surface)
 {
-    const auto held = std::make_shared<Held>();
-    return {.load = [=](const auto& progress,
-                        const auto& isCancelled) { load(*held, capture, surface, progress, isCancelled); },
+    const std::shared_ptr<Held> held = heldOf(capture, surface);
+    return {.load = [=](const auto& progress, const auto& isCancelled) { load(*held, progress, isCancelled); },
             .size = [=] { return glm::ivec2(held->capture.width, held->capture.height); },
             .picture = [=](size_t light) { return pictureUnder(*held, light); },
             .observations = [=](size_t pixel) { return observationsAt(*held, pixel); },

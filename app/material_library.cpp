@@ -93,7 +93,7 @@ bool isForeignPicture(const fs::path& file)
 
 void addFound(Entries& entries, const fs::path& path)
 {
-    constexpr std::array kExtensions{".binary", ".bsdf", ".exr"};
+    constexpr std::array kExtensions{".binary", ".bsdf", ".exr", ".brdf"};
     const bool isFile = fs::is_regular_file(path) &&
                         std::find(kExtensions.begin(), kExtensions.end(), path.extension()) != kExtensions.end();
     if (isSurfaceFolder(path)) {

@@ -10,6 +10,7 @@
 #include "app/contact_sheet.h"
 #include "app/destinations.h"
 #include "app/interpolation_arguments.h"
+#include "app/ladder_report.h"
 #include "app/library_packing.h"
 #include "app/material_ball.h"
 #include "app/material_library.h"

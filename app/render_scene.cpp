@@ -13,6 +13,7 @@
 #include "engine/scene/coverage.h"
 #include "engine/scene/environment.h"
 #include "engine/scene/error.h"
+#include "engine/target/mesh_file.h"
 
 namespace nacre {
 
@@ -47,6 +48,23 @@ void checkMaterialArguments(const RenderArguments& arguments)
     }
 }
 
+// The normals of --onto, dressed in the material.
+Surface surfaceOnto(const RenderArguments& arguments, const Material& material)
+{
+    const std::filesystem::path& onto = arguments.onto;
+    if (onto.string().rfind("make:", 0) == 0 || isMeshFile(onto)) {
+        throw Error(onto, "is no normal map yet",
+                    fmt::format("T.nacre of nacre target {} -o T.nacre, or nacre transfer", onto.string()),
+                    Error::kUsage);
+    }
+    if (!std::filesystem::exists(onto)) {
+        throw Error(onto, "does not exist", "a NAME.nacre or a picture of normals");
+    }
+    return std::filesystem::is_directory(onto)
+               ? transferredSurface(loadSurface(onto), material)
+               : transferredSurface(loadNormalMap(onto, normalYOf(arguments)), material);
+}
+
 // The surface to draw: the measured one, or its first material on other normals; fitted into --size where given.
 Surface surfaceToDraw(const RenderArguments& arguments, Surface measured, const Context& context)
 {
@@ -54,10 +72,7 @@ Surface surfaceToDraw(const RenderArguments& arguments, Surface measured, const 
         if (measured.materials.empty()) {
             throw Error(arguments.surface, "holds no material", "one to put onto other normals");
         }
-        const Material& material = measured.materials.front();
-        measured = std::filesystem::is_directory(arguments.onto)
-                       ? transferredSurface(loadSurface(arguments.onto), material)
-                       : transferredSurface(loadNormalMap(arguments.onto, normalYOf(arguments)), material);
+        measured = surfaceOnto(arguments, measured.materials.front());
     } else if (measured.materials.empty()) {
         throw Error(
             arguments.surface, "is a target without a material",

@@ -80,6 +80,7 @@ void runView(ViewArguments arguments)
     const SceneSource source = sourceFrom(arguments, context);
     if (arguments.headless) {
         viewHeadless(context, state, choices, source, arguments.scene.output);
+        fmt::print("wrote        {}, the render alone, and its state beside it\n", arguments.scene.output.string());
     } else {
         runViewer(context, state, choices, source,
                   {.width = size.width, .height = size.height, .screenshots = arguments.screenshots});

@@ -186,6 +186,10 @@ NamedBrdf parseMaterial(const std::string& specification, const std::filesystem:
     if (kind == "merl-abc" || kind == "merl-sgd") {
         return {specification, parseFit(specification, kind, rest, fitsFolder)};
     }
+    if (std::filesystem::path(specification).extension() == ".brdf") {
+        refuse(specification, "holds scattered measurements (Cornell) and no BRDF between them",
+               "nacre brdf, which examines it, or another material");
+    }
     const std::string measured = kindOfFile(specification, kind);
     if (measured.empty()) {
         refuse(specification, fmt::format("knows no model \"{}\"", kind), kForms);

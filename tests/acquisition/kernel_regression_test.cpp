@@ -122,7 +122,8 @@ TEST(Bake, SameBytesForOneAndTwoThreads)
     for (size_t i = 0; i < samples.size(); ++i) {
         samples.values[i] = glm::vec3(std::sin(9 * samples.unit[i].x), samples.unit[i].y, 1);
     }
-    const BakedBrdf a = bakeBrdf(samples, InterpolationOptions{}, one), b = bakeBrdf(samples, InterpolationOptions{}, two);
+    const BakedBrdf a = bakeBrdf(samples, InterpolationOptions{}, one),
+                    b = bakeBrdf(samples, InterpolationOptions{}, two);
     EXPECT_EQ(a.table.values, b.table.values);
     EXPECT_EQ(a.table.confidence, b.table.confidence);
 }

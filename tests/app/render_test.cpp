@@ -168,6 +168,14 @@ TEST_F(RenderTest, BadOptionsAreUsageErrors)
     expectRefusal(render("new.exr", {"--exposure", "1"}), 2, ".png only");
     expectRefusal(render("new.tga", {}), 2, ".png (8-bit sRGB) or .exr");
     expectRefusal(render("new.png", {"--onto", path("s.nacre"), "--normal-y", "up"}), 2, "gl (green points up)");
+    expectRefusal(render("new.png", {"--onto", "make:head"}), 2, "nacre target make:head");
+    expectRefusal(render("new.png", {"--onto", path("mesh.obj")}), 2, "nacre transfer");
+}
+
+TEST_F(RenderTest, ViewRefusesPhotographsThatAreNone)
+{
+    expectRefusal(runNacre({"view", path("s.nacre"), "--headless", "-o", path("new.png"), "--capture", path("none")}),
+                  3, "none");
 }
 
 TEST_F(RenderTest, BadDataIsRefused)
