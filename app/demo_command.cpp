@@ -132,7 +132,8 @@ Image makeSheet(const Capture& capture, const Surface& surface, const DemoArgume
     std::vector<std::vector<SheetCell>> rows;
     rows.push_back(comparisonRow(capture, surface, renderer));
     const Material& material = surface.materials.front();
-    rows.push_back(transferRow("woven cloth", wovenCloth(kTargetSize, kTargetSize).normals, material, renderer));
+    const Target cloth = wovenCloth(kTargetSize, kTargetSize, {.weave = "twill", .threads = 18});
+    rows.push_back(transferRow("woven cloth", cloth.normals, material, renderer));
     append(rows.back(), transferRow("carved head", statueHead(kTargetSize, kTargetSize).normals, material, renderer));
     return contactSheet(rows, kTargetSize, kTargetSize);
 }
