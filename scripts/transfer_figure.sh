@@ -10,5 +10,5 @@ capture="$work/plastic-capture" plastic="$work/red-plastic.nacre"
 "$nacre" synth "$capture" --material "ggx:diffuse=0.42,0.05,0.04;specular=0.05;alpha=0.18" --lights 64 --cap-degrees 84 --size 256 \
     --quiet --force
 "$nacre" acquire "$capture" -o "$plastic" --quiet --force
-"$nacre" transfer --materials "$plastic" --onto make:cloth,make:head --rig key,three-point --size 250x250 -o "$work/transfer" --force
+"$nacre" transfer --materials "$plastic" --onto make:cloth:twill,make:head --rig key,three-point --size 250x250 -o "$work/transfer" --force
 cp "$work/transfer/sheet.png" "$picture"
