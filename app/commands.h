@@ -18,6 +18,7 @@ void addBrdfCommand(CLI::App& app);
 void addCompareCommand(CLI::App& app);
 void addStressCommand(CLI::App& app);
 void addEvaluateCommand(CLI::App& app);
+void addChartCommand(CLI::App& app);
 void addDemoCommand(CLI::App& app);
 void addBenchCommand(CLI::App& app);
 

@@ -1,10 +1,13 @@
 #include <memory>
+#include <optional>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "app/capture_arguments.h"
 #include "app/commands.h"
+#include "app/destinations.h"
+#include "app/evaluate_report.h"
 #include "app/interpolation_arguments.h"
 #include "app/progress_line.h"
 #include "engine/scene/error.h"
@@ -15,9 +18,13 @@ namespace nacre {
 
 namespace {
 
+constexpr const char* kWorst = "worst.png";
+
 struct EvaluateArguments {
     CaptureArguments common;
     InterpolationArguments interpolation;
+    std::filesystem::path truth;
+    std::filesystem::path output;
     std::string holdOut = "every:7";
     bool baselines = false;
 };
@@ -36,47 +43,31 @@ size_t holdOutEvery(const std::string& text)
     return every;
 }
 
-std::string describe(const HeldOutEvaluation& evaluation)
+// Refuses now what it would refuse after the work.
+void checkOutputs(const EvaluateArguments& arguments)
 {
-    std::string text = fmt::format("{} photographs given, {} held out; PSNR of radiance, dB\n\n{:<18}",
-                                   evaluation.given, evaluation.photographs.size(), "photograph");
-    for (const PredictionScore& score : evaluation.scores) {
-        text += fmt::format("{:>8}", score.method);
+    requireSummaryDestination(arguments.common.json);
+    requireFolderDestination(arguments.output);
+    if (std::filesystem::exists(arguments.output / kWorst)) {
+        requireDestination(arguments.output / kWorst, arguments.common.force);
     }
-    for (size_t j = 0; j < evaluation.photographs.size(); ++j) {
-        text += fmt::format("\n{:<18}", evaluation.photographs[j]);
-        for (const PredictionScore& score : evaluation.scores) {
-            text += fmt::format("{:>8.2f}", score.photographs[j]);
-        }
-    }
-    text += fmt::format("\n{:<18}", "all, colour");
-    for (const PredictionScore& score : evaluation.scores) {
-        text += fmt::format("{:>8.2f}", score.psnr);
-    }
-    text += fmt::format("\n{:<18}", "all, grey");
-    for (const PredictionScore& score : evaluation.scores) {
-        text += fmt::format("{:>8.2f}", score.greyPsnr);
-    }
-    text += fmt::format("\n{:<18}", "grey, own peaks");
-    for (const PredictionScore& score : evaluation.scores) {
-        text += fmt::format("{:>8.2f}", score.ownPeakPsnr);
-    }
-    return text + "\n";
 }
 
-nlohmann::ordered_json documentOf(const HeldOutEvaluation& evaluation)
+std::optional<AngularError> normalError(const EvaluateArguments& arguments, const Capture& capture,
+                                        const NormalMap& normals)
 {
-    nlohmann::ordered_json document{{"photographsGiven", evaluation.given},
-                                    {"photographsHeldOut", evaluation.photographs},
-                                    {"acquisitionSeconds", evaluation.seconds}};
-    for (const PredictionScore& score : evaluation.scores) {
-        document["methods"].push_back({{"method", score.method},
-                                       {"psnrColour", score.psnr},
-                                       {"psnrGrey", score.greyPsnr},
-                                       {"psnrGreyOwnPeaks", score.ownPeakPsnr},
-                                       {"psnrOfPhotographs", score.photographs}});
+    const std::filesystem::path truth = arguments.truth.empty() ? capture.truthNormals : arguments.truth;
+    return truth.empty() ? std::nullopt : std::optional(errorAgainstTruth(capture, normals, truth));
+}
+
+void writeSheet(const std::filesystem::path& folder, const HeldOutEvaluation& evaluation)
+{
+    std::error_code error;
+    std::filesystem::create_directories(folder, error);
+    if (error) {
+        throw Error(folder, "cannot be made: " + error.message(), "a writable place with room");
     }
-    return document;
+    saveImage(folder / kWorst, worstSheet(evaluation), PixelType::uint8);
 }
 
 void runEvaluate(EvaluateArguments& arguments)
@@ -85,9 +76,7 @@ void runEvaluate(EvaluateArguments& arguments)
     AcquireOptions options = common.stageOptions();
     options.interpolation = arguments.interpolation.options(options.interpolation.threads);
     options.lights.heldOutEvery = holdOutEvery(arguments.holdOut);
-    if (!common.json.empty()) {
-        WholeOutput(common.json, common.force);
-    }
+    checkOutputs(arguments);
     const Capture capture = common.load();
     std::vector<RelightingBaseline> baselines;
     if (arguments.baselines) {
@@ -95,11 +84,15 @@ void runEvaluate(EvaluateArguments& arguments)
     }
     const HeldOutEvaluation evaluation = evaluateHeldOut(capture, options, baselines, progressLine(common.quiet));
     endProgressLine(common.quiet);
+    const std::optional<AngularError> error = normalError(arguments, capture, evaluation.acquisition.surface.normals);
     if (!common.quiet) {
-        fmt::print("{}", describe(evaluation));
+        fmt::print("{}", describe(evaluation, error));
     }
     if (!common.json.empty()) {
-        writeTextFile(common.json, documentOf(evaluation).dump(2) + "\n");
+        writeTextFile(common.json, documentOf(evaluation, error).dump(2) + "\n");
+    }
+    if (!arguments.output.empty()) {
+        writeSheet(arguments.output, evaluation);
     }
 }
 
@@ -108,16 +101,21 @@ void runEvaluate(EvaluateArguments& arguments)
 void addEvaluateCommand(CLI::App& app)
 {
     auto arguments = std::make_shared<EvaluateArguments>();
-    CLI::App* command = app.add_subcommand("evaluate", "How well a capture predicts photographs that are held out");
+    CLI::App* command = app.add_subcommand("evaluate", "The whole chain, judged by photographs that are held out");
     arguments->common.addTo(*command);
     arguments->interpolation.addTo(*command);
     command
         ->add_option("--hold-out", arguments->holdOut, "every:N keeps back the first photograph and every N-th after")
         ->capture_default_str();
+    command->add_option("--truth", arguments->truth,
+                        "True normals to compare with (.mat, .png, .exr); sphere: those of the ball that fills the "
+                        "mask (default: the capture's own)");
+    command->add_option("-o,--output", arguments->output,
+                        "Folder for worst.png: the photograph predicted worst, its prediction, their difference");
     command->add_flag(
         "--baselines", arguments->baselines,
         "Compare with per-pixel relighting: PTM, HSH, RBF, thin-plate splines, each at its best smoothing");
-    command->footer("Example:\n  nacre evaluate ballPNG --lights-given 36 --baselines");
+    command->footer("Example:\n  nacre evaluate ballPNG --lights-given 36 --json ball.json -o ball");
     command->callback([arguments] { runEvaluate(*arguments); });
 }
 

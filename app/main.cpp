@@ -50,6 +50,7 @@ int runCommandLine(int argc, char** argv)
     nacre::addBrdfCommand(app);
     nacre::addCompareCommand(app);
     nacre::addEvaluateCommand(app);
+    nacre::addChartCommand(app);
     nacre::addStressCommand(app);
     nacre::addDemoCommand(app);
     nacre::addBenchCommand(app);

@@ -8,14 +8,10 @@
 #include "acquisition/normals/light_triples.h"
 #include "engine/scene/measures.h"
 #include "engine/scene/parallel_for.h"
-#include "engine/scene/reference.h"
 
 namespace nacre {
 
 namespace {
-
-// Values [pixel * count + photograph].
-using Predictions = std::vector<glm::vec3>;
 
 struct Truth {
     Observations heldOut, given;
@@ -57,17 +53,6 @@ Truth readTruth(const Capture& capture, const Rig& rig, const std::vector<size_t
             selectLights(rig, given).lights, percentile99(all, false), percentile99(all, true)};
 }
 
-double decibels(double squaredError, size_t count)
-{
-    return -10 * std::log10(std::max(squaredError / static_cast<double>(std::max<size_t>(count, 1)), 1e-30));
-}
-
-float clippedError(float a, float b, double peak)
-{
-    const auto clipped = [&](float x) { return std::clamp(static_cast<float>(x / peak), 0.0f, 1.0f); };
-    return clipped(a) - clipped(b);
-}
-
 double ownPeakOf(const Observations& seen, size_t photograph)
 {
     std::vector<float> values;
@@ -100,22 +85,6 @@ PredictionScore scoreOf(const std::string& method, const Truth& truth, const Pre
     score.greyPsnr = decibels(grey, pixels * count);
     score.ownPeakPsnr = decibels(ownPeak, pixels * count);
     return score;
-}
-
-Predictions predictByModel(const Surface& surface, const Truth& truth, int threads)
-{
-    const size_t count = truth.heldOut.lightCount;
-    Predictions predicted(truth.heldOut.radiance.size());
-    Scene scene{surface, {}, {0, 0, 1}};
-    for (size_t j = 0; j < count; ++j) {
-        scene.lights = {truth.heldOutLights[j]};
-        const Frame frame = renderReference(scene, threads);
-        for (size_t p = 0; p < truth.heldOut.pixels.size(); ++p) {
-            const float* value = &frame.values[3 * size_t{truth.heldOut.pixels[p]}];
-            predicted[p * count + j] = {value[0], value[1], value[2]};
-        }
-    }
-    return predicted;
 }
 
 Predictions predictByWeights(const Truth& truth, const std::vector<float>& weights, int threads)
@@ -151,6 +120,27 @@ PredictionScore bestScoreOf(RelightingBaseline baseline, const Truth& truth, int
     return best;
 }
 
+// Photograph by photograph, and the pictures of the one that is predicted worst.
+void judgePhotographs(const Capture& capture, const Truth& truth, const Predictions& predicted,
+                      HeldOutEvaluation& evaluation)
+{
+    evaluation.peak = truth.peak;
+    for (size_t j = 0; j < truth.heldOut.lightCount; ++j) {
+        const auto picture = [&](std::span<const glm::vec3> radiance) {
+            return pictureOf(truth.heldOut, radiance, j, capture.width, capture.height);
+        };
+        const Image photograph = picture(truth.heldOut.radiance), prediction = picture(predicted);
+        PhotographMeasures measures = measurePhotograph(prediction, photograph, capture.mask, truth.peak);
+        measures.photograph = evaluation.photographs[j];
+        evaluation.measures.push_back(measures);
+        if (j == 0 || measures.psnr < evaluation.measures[evaluation.worst].psnr) {
+            evaluation.worst = j;
+            evaluation.worstPhotograph = photograph;
+            evaluation.worstPrediction = prediction;
+        }
+    }
+}
+
 } // namespace
 
 HeldOutEvaluation evaluateHeldOut(const Capture& capture, const AcquireOptions& options,
@@ -169,8 +159,11 @@ HeldOutEvaluation evaluateHeldOut(const Capture& capture, const AcquireOptions& 
     }
     const int threads = options.normals.threads;
     const Truth truth = readTruth(capture, rig, heldOut, given, threads);
-    evaluation.scores.push_back(
-        scoreOf("nacre", truth, predictByModel(evaluation.acquisition.surface, truth, threads)));
+    const Surface& surface = evaluation.acquisition.surface;
+    const Predictions predicted = predictBySurface(surface, truth.heldOut, truth.heldOutLights, threads);
+    evaluation.scores.push_back(scoreOf("nacre", truth, predicted));
+    judgePhotographs(capture, truth, predicted, evaluation);
+    evaluation.modelBytes = modelBytes(surface);
     for (const RelightingBaseline baseline : baselines) {
         progress("baselines",
                  static_cast<double>(evaluation.scores.size()) / static_cast<double>(baselines.size() + 1));

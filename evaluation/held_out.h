@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "acquisition/acquire.h"
+#include "evaluation/held_out_measures.h"
 #include "evaluation/relighting_baselines.h"
 
 namespace nacre {
@@ -17,11 +18,16 @@ struct PredictionScore {
 };
 
 struct HeldOutEvaluation {
-    std::vector<std::string> photographs; // names of those held out
-    size_t given = 0;                     // how many the methods have seen
-    std::vector<PredictionScore> scores;  // nacre first
-    double seconds = 0;                   // of the acquisition
-    Acquisition acquisition;              // from the photographs given
+    std::vector<std::string> photographs;     // names of those held out
+    size_t given = 0;                         // how many the methods have seen
+    std::vector<PredictionScore> scores;      // nacre first
+    std::vector<PhotographMeasures> measures; // of nacre's prediction, one a photograph held out
+    size_t worst = 0;                         // of them, by PSNR: these pictures
+    Image worstPhotograph, worstPrediction;   // linear radiance, 0 beside the object
+    double peak = 1;                          // 99th percentile of the capture's mask
+    size_t modelBytes = 0;
+    double seconds = 0;      // of the acquisition
+    Acquisition acquisition; // from the photographs given
 };
 
 // Acquires from the photographs that options.lights gives (its heldOutEvery must be positive) and predicts those held

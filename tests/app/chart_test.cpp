@@ -1,0 +1,119 @@
+#include <algorithm>
+#include <filesystem>
+
+#include <gtest/gtest.h>
+
+#include "engine/scene/image.h"
+#include "engine/scene/whole_file.h"
+#include "tests/support/run_nacre.h"
+
+namespace nacre {
+namespace {
+namespace fs = std::filesystem;
+
+std::string makeCapture(const TempFolder& folder)
+{
+    const std::string capture = (folder / "c").string();
+    const ProgramRun made = runNacre({"synth", capture, "--shape", "sphere", "--size", "24", "--sphere-size", "48",
+                                      "--lights", "14", "--give-lights"});
+    EXPECT_EQ(made.exitCode, 0) << made.err;
+    return capture;
+}
+
+size_t linesOf(const std::string& text)
+{
+    return static_cast<size_t>(std::count(text.begin(), text.end(), '\n'));
+}
+
+TEST(ChartCommand, WritesTablesPicturesAndOneReport)
+{
+    const TempFolder folder;
+    const std::string output = (folder / "charts").string();
+    std::vector<std::string> arguments = {
+        "chart", makeCapture(folder), "-o", output, "--methods", "least-squares,consensus", "--lights", "all,6", "--k",
+        "25"};
+    const ProgramRun run = runNacre(arguments);
+    ASSERT_EQ(run.exitCode, 0) << run.err;
+    EXPECT_NE(run.err.find("settings left"), std::string::npos) << run.err;
+    // Under a heading: two methods with all 12 and with 6 lights; two interpolations, three sizes, three formats.
+    EXPECT_EQ(linesOf(readTextFile(folder / "charts" / "normals.csv")), 1u + 4);
+    EXPECT_EQ(linesOf(readTextFile(folder / "charts" / "brdf.csv")), 1u + 18);
+    EXPECT_NE(readTextFile(folder / "charts" / "report.html").find("</html>"), std::string::npos);
+    size_t pictures = 0;
+    for (const auto& entry : fs::directory_iterator(folder / "charts")) {
+        pictures += entry.path().extension() == ".svg";
+    }
+    EXPECT_EQ(pictures, 3u);
+    EXPECT_EQ(runNacre(arguments).exitCode, 3) << "it exists";
+    EXPECT_EQ(runNacre({"chart", (folder / "c").string(), "-o", folder.path().string(), "--force"}).exitCode, 3)
+        << "a folder that is not its own";
+}
+
+TEST(ChartCommand, LeavesWhatIsFinishedWhenItIsInterrupted)
+{
+    const TempFolder folder;
+    const std::string capture = makeCapture(folder), output = (folder / "charts").string();
+    // Both by `timeout`: the signal comes while the many settings are under way, whatever the machine's speed.
+    const ProgramRun run = runProgram("/usr/bin/timeout", {"--preserve-status", "-s", "INT", "3", NACRE_EXECUTABLE,
+                                                           "chart", capture, "-o", output, "--threads", "1"});
+    if (run.exitCode == 0) {
+        GTEST_SKIP() << "all settings were finished within three seconds";
+    }
+    EXPECT_EQ(run.exitCode, 130) << run.err;
+    EXPECT_NE(run.err.find("was interrupted"), std::string::npos) << run.err;
+    const std::string csv = readTextFile(folder / "charts" / "normals.csv");
+    EXPECT_GE(linesOf(csv), 2u) << csv;
+    EXPECT_EQ(csv.back(), '\n');
+    const std::string html = readTextFile(folder / "charts" / "report.html");
+    EXPECT_NE(html.find("Interrupted"), std::string::npos);
+    EXPECT_NE(html.find("</html>"), std::string::npos);
+}
+
+TEST(ChartCommand, RefusesWhatItDoesNotKnow)
+{
+    const TempFolder folder;
+    const std::string output = (folder / "charts").string();
+    const auto expectRefusal = [&](const std::vector<std::string>& more, int exitCode, const std::string& named) {
+        std::vector<std::string> all = {"chart", (folder / "nothing").string(), "-o", output};
+        all.insert(all.end(), more.begin(), more.end());
+        const ProgramRun run = runNacre(all);
+        EXPECT_EQ(run.exitCode, exitCode) << named;
+        EXPECT_NE(run.err.find(named), std::string::npos) << run.err;
+        EXPECT_FALSE(fs::exists(output));
+    };
+    expectRefusal({}, 3, "nothing");
+    const std::string few = (folder / "few").string();
+    ASSERT_EQ(runNacre({"synth", few, "--shape", "sphere", "--size", "16", "--sphere-size", "48", "--lights", "3",
+                        "--give-lights"})
+                  .exitCode,
+              0);
+    EXPECT_EQ(runNacre({"chart", few, "-o", output}).exitCode, 3) << "one of three is held out, two are too few";
+    expectRefusal({"--methods", "magic"}, 2, "magic");
+    expectRefusal({"--parts", "magic"}, 2, "magic");
+    expectRefusal({"--lights", "2"}, 2, "--lights 2");
+    expectRefusal({"--k", "0"}, 2, "--k 0");
+    expectRefusal({"--k", "513"}, 2, "--k 513");
+}
+
+TEST(EvaluateCommand, TellsPhotographsNormalsBytesAndShowsTheWorst)
+{
+    const TempFolder folder;
+    const std::string capture = makeCapture(folder), summary = (folder / "e.json").string();
+    const std::vector<std::string> arguments = {"evaluate", capture, "--normals", "consensus",
+                                                "--json",   summary, "-o",        (folder / "sheet").string()};
+    const ProgramRun run = runNacre(arguments);
+    ASSERT_EQ(run.exitCode, 0) << run.err;
+    EXPECT_NE(run.out.find("worst        object_"), std::string::npos) << run.out;
+    const std::string json = readTextFile(summary);
+    for (const char* name : {"photographsGiven", "modelBytes", "secondsBaking", "normalsMeanErrorDegrees",
+                             "medianRelativeError", "structuralSimilarity", "worstPhotograph"}) {
+        EXPECT_NE(json.find(std::string("\"") + name + "\""), std::string::npos) << name;
+    }
+    const Image sheet = loadImage(folder / "sheet" / "worst.png");
+    EXPECT_GT(sheet.width, 3 * 240) << "three cells side by side";
+    EXPECT_EQ(runNacre(arguments).exitCode, 3) << "worst.png exists";
+    EXPECT_EQ(runNacre({"evaluate", capture, "--hold-out", "each:7"}).exitCode, 2);
+}
+
+} // namespace
+} // namespace nacre
