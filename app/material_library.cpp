@@ -26,12 +26,6 @@ std::optional<double> measuredShare(const BrdfModel& model)
     return table && knowsCoverage(*table) ? std::optional(coveredShare(*table)) : std::nullopt;
 }
 
-size_t bytesOf(const Material& material)
-{
-    return material.compact ? bytesOf(*material.compact)
-                            : material.table.values.size() * bytesPerTexel(TexelFormat::rgba32f);
-}
-
 void addSurface(Entries& entries, const std::string& folder)
 {
     Surface surface = loadSurface(folder);

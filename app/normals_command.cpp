@@ -3,9 +3,6 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "acquisition/capture/capture_window.h"
-#include "acquisition/capture/matlab_normals.h"
-#include "acquisition/lights/sphere_outline.h"
 #include "app/acquisition_summary.h"
 #include "app/capture_arguments.h"
 #include "app/commands.h"
@@ -14,30 +11,18 @@
 #include "app/progress_line.h"
 #include "app/verdict_pictures.h"
 #include "engine/scene/error.h"
-#include "engine/scene/measures.h"
 #include "engine/scene/whole_file.h"
+#include "evaluation/held_out_measures.h"
 
 namespace nacre {
 
 namespace {
-
-// In place of a file: the geometry of a sphere whose outline is the capture's mask.
-constexpr const char* kSphere = "sphere";
 
 struct NormalsArguments {
     CaptureArguments common;
     std::filesystem::path output;
     std::filesystem::path truth;
 };
-
-AngularError compareWithTruth(const Capture& capture, const NormalMap& normals, const std::filesystem::path& file)
-{
-    const NormalMap truth = file == kSphere
-                                ? sphereNormals(fitCircle(capture.mask, capture.width, capture.height, capture.folder),
-                                                capture.width, capture.height)
-                                : windowedNormals(loadTrueNormals(file), capture, file);
-    return angularError(normals, truth, capture.mask);
-}
 
 // Refuses now what it would refuse after the work.
 void checkOutputs(const NormalsArguments& arguments)
@@ -72,7 +57,7 @@ void runNormals(NormalsArguments& arguments)
     }
     const std::filesystem::path truth = arguments.truth.empty() ? capture.truthNormals : arguments.truth;
     if (!truth.empty()) {
-        const AngularError error = compareWithTruth(capture, result.normals, truth);
+        const AngularError error = errorAgainstTruth(capture, result.normals, truth);
         summary["meanErrorDegrees"] = error.mean;
         summary["medianErrorDegrees"] = error.median;
         summary["percentile95ErrorDegrees"] = error.percentile95;

@@ -108,13 +108,9 @@ size_t modelBytes(const Surface& surface)
     size_t bytes = 0;
     std::set<const BrdfBasis*> counted;
     for (const Material& material : surface.materials) {
-        if (!material.compact) {
-            bytes += material.table.values.size() * bytesPerTexel(TexelFormat::rgba32f);
-            continue;
-        }
-        const BasisBrdf* shared = std::get_if<BasisBrdf>(&*material.compact);
+        const BasisBrdf* shared = material.compact ? std::get_if<BasisBrdf>(&*material.compact) : nullptr;
         const bool again = shared && !counted.insert(shared->basis.get()).second;
-        bytes += bytesOf(*material.compact) - (again ? bytesOf(*shared->basis) : 0);
+        bytes += bytesOf(material) - (again ? bytesOf(*shared->basis) : 0);
     }
     return bytes;
 }

@@ -3,14 +3,8 @@
 # of a core the window takes when nothing moves. Prints the figures of docs/viewer.md.
 set -euo pipefail
 cd "$(dirname "$0")/.."
-nacre=$(realpath "${1:-build/release/app/nacre}")
-work=$(mktemp -d)
-shots=$work/shots
 . scripts/window_driver.sh
-require_window_tools
-mkdir -p "$shots"
-make_scene
-start_display 1280x720
+set_stage "${1:-build/release/app/nacre}"
 lights=(--light 0.3,0.4,0.87 --light=-0.6,0.2,0.8,0.3,0.5,1 --light 0.5,-0.5,0.7,0.8,0.6,0.3 --light=0,0.7,0.7,0.2,0.2,0.2)
 
 ticks() { awk '{ print $14 + $15 }' "/proc/$window_id/stat"; } # hundredths of a second of one core

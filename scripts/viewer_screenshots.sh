@@ -2,14 +2,8 @@
 # viewer_screenshots.sh [NACRE]: takes the pictures of the window in docs/viewer-*.png under Xvfb.
 set -euo pipefail
 cd "$(dirname "$0")/.."
-nacre=$(realpath "${1:-build/release/app/nacre}")
-work=$(mktemp -d)
-shots=$work/shots
 . scripts/window_driver.sh
-require_window_tools
-mkdir -p "$shots"
-make_scene
-start_display 1280x720
+set_stage "${1:-build/release/app/nacre}"
 take() { sleep 1; import -window root "docs/viewer-$1.png"; echo "docs/viewer-$1.png"; }
 
 cat >"$work/state.json" <<END

@@ -7,6 +7,17 @@ require_window_tools() {
     done
 }
 
+# What a script of the documents needs: the program, a folder of its own, a surface, a display.
+set_stage() { # NACRE
+    nacre=$(realpath "$1")
+    work=$(mktemp -d)
+    shots=$work/shots
+    require_window_tools
+    mkdir -p "$shots"
+    make_scene
+    start_display 1280x720
+}
+
 start_display() { # SIZE such as 1280x720
     mkdir -p "$work"
     Xvfb -displayfd 3 -screen 0 "$1x24" 3>"$work/display" >/dev/null 2>&1 &

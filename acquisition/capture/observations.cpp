@@ -13,6 +13,7 @@
 #include "acquisition/capture/photograph_files.h"
 #include "engine/scene/error.h"
 #include "engine/scene/parallel_for.h"
+#include "engine/scene/temporary_folder.h"
 
 namespace nacre {
 

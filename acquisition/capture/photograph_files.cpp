@@ -1,8 +1,6 @@
 #include "acquisition/capture/photograph_files.h"
 
 #include <algorithm>
-#include <cerrno>
-#include <cstring>
 #include <string>
 
 #include <fmt/format.h>
@@ -52,24 +50,6 @@ fs::path saveCopy(fs::path file, const Image& picture, const std::string& pixelT
 }
 
 } // namespace
-
-TemporaryFolder::TemporaryFolder()
-{
-    std::error_code error;
-    const fs::path parent = fs::temp_directory_path(error);
-    std::string name = (parent / "nacre-photographs-XXXXXX").string();
-    if (error || !mkdtemp(name.data())) {
-        throw Error(name, fmt::format("cannot be made: {}", error ? error.message() : std::strerror(errno)),
-                    "a writable folder for temporary files (TMPDIR)");
-    }
-    path_ = name;
-}
-
-TemporaryFolder::~TemporaryFolder()
-{
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-}
 
 ExposureFile::ExposureFile(const Exposure& exposure, const Capture& capture)
     : file_(exposure.file), source_(exposure.file), curve_(capture.curve), seconds_(exposure.seconds),

@@ -8,20 +8,6 @@
 
 namespace nacre {
 
-// A folder of the system's temporary place, removed with all that is in it.
-class TemporaryFolder {
-public:
-    TemporaryFolder();
-    ~TemporaryFolder();
-    TemporaryFolder(const TemporaryFolder&) = delete;
-    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-
-    const std::filesystem::path& path() const { return path_; }
-
-private:
-    std::filesystem::path path_;
-};
-
 // One exposure's file, read in bands of rows from top to bottom.
 class ExposureFile {
 public:

@@ -136,6 +136,12 @@ Surface surfaceOf(const fs::path& folder, const Json& json)
 
 } // namespace
 
+size_t bytesOf(const Material& material)
+{
+    return material.compact ? bytesOf(*material.compact)
+                            : material.table.values.size() * bytesPerTexel(TexelFormat::rgba32f);
+}
+
 void saveSurface(const fs::path& folder, const Surface& surface, bool replace)
 {
     WholeOutput output(folder, replace);

@@ -22,6 +22,9 @@ struct Material {
     std::optional<CompactBrdf> compact{};
 };
 
+// Of its model in memory, coverage apart: the smaller one, or the table in 32-bit floats.
+size_t bytesOf(const Material& material);
+
 // relative: the BRDF is 1/sr up to one factor per capture. absolute: the diffuse sphere's reflectance was given.
 enum class RadianceScale { relative, absolute };
 

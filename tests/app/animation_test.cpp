@@ -9,6 +9,7 @@
 #include "engine/scene/whole_file.h"
 #include "tests/gpu/scenes.h"
 #include "tests/support/expect_error.h"
+#include "tests/support/expect_one_line.h"
 #include "tests/support/run_nacre.h"
 
 namespace nacre::test {
@@ -76,9 +77,7 @@ protected:
 
     void expectRefusal(const ProgramRun& run, int exitCode, const std::string& fragment)
     {
-        EXPECT_EQ(run.exitCode, exitCode) << run.err;
-        EXPECT_NE(run.err.find(fragment), std::string::npos) << run.err;
-        EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
+        expectOneLine(run, exitCode, {fragment});
         for (const auto& entry : fs::directory_iterator(folder_.path())) {
             const std::string name = entry.path().filename().string();
             EXPECT_TRUE(name.find("new") == std::string::npos && name.find(".part") == std::string::npos) << name;

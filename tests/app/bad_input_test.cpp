@@ -6,6 +6,7 @@
 
 #include "engine/scene/image.h"
 #include "tests/gpu/scenes.h"
+#include "tests/support/expect_one_line.h"
 #include "tests/support/run_nacre.h"
 #include "tests/support/write_capture.h"
 
@@ -14,16 +15,6 @@ namespace {
 namespace fs = std::filesystem;
 
 // One line on stderr that holds every fragment; a stack or a second line is as wrong as another exit code.
-void expectRefusal(const ProgramRun& run, int exitCode, const std::vector<std::string>& fragments)
-{
-    EXPECT_EQ(run.exitCode, exitCode) << run.err;
-    EXPECT_EQ(run.err.rfind("nacre: ", 0), 0u) << run.err;
-    EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
-    for (const std::string& fragment : fragments) {
-        EXPECT_NE(run.err.find(fragment), std::string::npos) << "\"" << fragment << "\" is not in: " << run.err;
-    }
-}
-
 class BadInputTest : public testing::Test {
 protected:
     std::string path(const std::string& name) const { return (folder_ / name).string(); }
@@ -35,7 +26,7 @@ protected:
             SCOPED_TRACE(command);
             std::vector<std::string> arguments = {command, path("capture"), "-o", path(output)};
             arguments.insert(arguments.end(), more.begin(), more.end());
-            expectRefusal(runNacre(arguments), 3, fragments);
+            expectOneLine(runNacre(arguments), 3, fragments);
             expectNothingWritten();
         }
     }
@@ -78,8 +69,8 @@ protected:
 TEST_F(BadInputTest, MissingFolder)
 {
     expectCaptureRefused({path("capture"), "does not exist", "folder of a capture"});
-    expectRefusal(runNacre({"info", path("capture")}), 3, {path("capture"), "does not exist"});
-    expectRefusal(runNacre({"render", path("no.nacre"), "-o", path("new.png")}), 3, {"no.nacre", "is not a surface"});
+    expectOneLine(runNacre({"info", path("capture")}), 3, {path("capture"), "does not exist"});
+    expectOneLine(runNacre({"render", path("no.nacre"), "-o", path("new.png")}), 3, {"no.nacre", "is not a surface"});
 }
 
 TEST_F(BadInputTest, FolderWithoutACapture)
@@ -242,14 +233,14 @@ TEST_F(OutputTest, AnOutputThatExistsIsReplacedWithForceAlone)
         SCOPED_TRACE(command);
         writeText(folder_ / output, "precious");
         std::vector<std::string> arguments = writing(command, output);
-        expectRefusal(runNacre(arguments), 3, {path(output), "exists already", "--force"});
+        expectOneLine(runNacre(arguments), 3, {path(output), "exists already", "--force"});
         EXPECT_EQ(fs::file_size(folder_ / output), 8u);
         arguments.push_back("--force");
         EXPECT_EQ(runNacre(arguments).exitCode, 0);
         EXPECT_TRUE(fs::is_directory(folder_ / output) || fs::file_size(folder_ / output) > 8);
     }
-    expectRefusal(runNacre({"synth", path("capture")}), 3, {path("capture"), "exists already", "--force"});
-    expectRefusal(runNacre({"demo", "-o", path("capture")}), 3, {path("capture"), "exists already", "--force"});
+    expectOneLine(runNacre({"synth", path("capture")}), 3, {path("capture"), "exists already", "--force"});
+    expectOneLine(runNacre({"demo", "-o", path("capture")}), 3, {path("capture"), "exists already", "--force"});
 }
 
 TEST_F(OutputTest, AFolderThatIsNoCaptureIsNeverReplacedBySynth)
@@ -261,11 +252,11 @@ TEST_F(OutputTest, AFolderThatIsNoCaptureIsNeverReplacedBySynth)
 
 TEST_F(OutputTest, PlacesThatCannotBeWrittenAreRefusedBeforeTheWork)
 {
-    expectRefusal(runNacre({"acquire", path("capture"), "-o", path("none/new.nacre")}), 3,
+    expectOneLine(runNacre({"acquire", path("capture"), "-o", path("none/new.nacre")}), 3,
                   {"its folder does not exist"});
-    expectRefusal(runNacre({"acquire", path("capture"), "-o", path("new.nacre"), "--json", path("none/a.json")}), 3,
+    expectOneLine(runNacre({"acquire", path("capture"), "-o", path("new.nacre"), "--json", path("none/a.json")}), 3,
                   {"none/a.json", "its folder does not exist"});
-    expectRefusal(runNacre({"normals", path("capture"), "-o", path("new.exr"), "--json", path("none/a.json")}), 3,
+    expectOneLine(runNacre({"normals", path("capture"), "-o", path("new.exr"), "--json", path("none/a.json")}), 3,
                   {"none/a.json", "its folder does not exist"});
     expectNothingWritten();
 }
@@ -274,7 +265,7 @@ TEST_F(OutputTest, NoVulkanDevice)
 {
     writeSurface();
     const std::string none = "VK_ICD_FILENAMES=/nonexistent VK_DRIVER_FILES=/nonexistent";
-    expectRefusal(runNacre(writing("render", "new.png"), none), 3, {"no Vulkan device", "install a driver"});
+    expectOneLine(runNacre(writing("render", "new.png"), none), 3, {"no Vulkan device", "install a driver"});
     expectNothingWritten();
     // Photographs become a surface without one.
     EXPECT_EQ(runNacre(writing("acquire", "other.nacre"), none).exitCode, 0);
@@ -293,7 +284,7 @@ TEST_F(OutputTest, AFullDiskLeavesNothingBehind)
         std::vector<std::string> arguments = writing(command, output);
         arguments.push_back("--quiet");
         // acquire names the file within the surface's folder
-        expectRefusal(runNacre(arguments, full), 3,
+        expectOneLine(runNacre(arguments, full), 3,
                       {output == std::string("new.nacre") ? "normals.exr" : output, "cannot be written"});
         expectNothingWritten();
     }
@@ -307,7 +298,7 @@ TEST_F(OutputTest, AFullDiskKeepsTheOldOutput)
     writeText(folder_ / "old.exr", "precious");
     std::vector<std::string> arguments = writing("normals", "old.exr");
     arguments.push_back("--force");
-    expectRefusal(runNacre(arguments, "trap '' XFSZ; ulimit -f 8;"), 3, {"old.exr", "cannot be written"});
+    expectOneLine(runNacre(arguments, "trap '' XFSZ; ulimit -f 8;"), 3, {"old.exr", "cannot be written"});
     EXPECT_EQ(fs::file_size(folder_ / "old.exr"), 8u);
 }
 
@@ -344,7 +335,7 @@ TEST_F(BadInputTest, UsageErrorsAreOneLineThatNamesTheHelp)
     };
     for (const auto& [arguments, fragments] : cases) {
         SCOPED_TRACE(arguments.empty() ? "nothing" : arguments.front() + " ... " + arguments.back());
-        expectRefusal(runNacre(arguments), 2, fragments);
+        expectOneLine(runNacre(arguments), 2, fragments);
     }
 }
 

@@ -8,6 +8,7 @@
 #include "engine/scene/reference.h"
 #include "tests/gpu/frame_match.h"
 #include "tests/gpu/scenes.h"
+#include "tests/support/expect_one_line.h"
 #include "tests/support/run_nacre.h"
 
 namespace nacre::test {
@@ -43,9 +44,7 @@ protected:
 
     void expectRefusal(const ProgramRun& run, int exitCode, const std::string& fragment)
     {
-        EXPECT_EQ(run.exitCode, exitCode) << run.err;
-        EXPECT_NE(run.err.find(fragment), std::string::npos) << run.err;
-        EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
+        expectOneLine(run, exitCode, {fragment});
         EXPECT_EQ(run.out, "");
         EXPECT_FALSE(std::filesystem::exists(path("new.png")));
     }

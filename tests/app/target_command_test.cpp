@@ -11,6 +11,7 @@
 #include "tests/gpu/frame_match.h"
 #include "tests/gpu/scenes.h"
 #include "tests/support/data_folder.h"
+#include "tests/support/expect_one_line.h"
 #include "tests/support/run_nacre.h"
 
 namespace nacre::test {
@@ -38,11 +39,7 @@ protected:
 
     void expectRefusal(const ProgramRun& run, int exitCode, const std::vector<std::string>& fragments)
     {
-        EXPECT_EQ(run.exitCode, exitCode) << run.err;
-        EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
-        for (const std::string& fragment : fragments) {
-            EXPECT_NE(run.err.find(fragment), std::string::npos) << fragment << " is not in " << run.err;
-        }
+        expectOneLine(run, exitCode, fragments);
         EXPECT_FALSE(fs::exists(path("new.nacre")));
     }
 
