@@ -59,7 +59,7 @@ void draw(const Context& context, VkCommandBuffer commands, const Pipeline& pipe
     context.pushDescriptorSet(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline.layout(), 0,
                               static_cast<uint32_t>(writes.size()), writes.data());
     if (!constants.empty()) {
-        vkCmdPushConstants(commands, pipeline.layout(), VK_SHADER_STAGE_FRAGMENT_BIT, 0,
+        vkCmdPushConstants(commands, pipeline.layout(), pipeline.constantStages(), 0,
                            static_cast<uint32_t>(constants.size()), constants.data());
     }
     vkCmdDraw(commands, pipeline.vertexCount(), 1, 0, 0);

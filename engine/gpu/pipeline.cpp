@@ -31,9 +31,10 @@ VkDescriptorSetLayout createSetLayout(VkDevice device, std::span<const ShaderBin
     return layout;
 }
 
-VkPipelineLayout createLayout(VkDevice device, VkDescriptorSetLayout set, uint32_t pushConstantBytes)
+VkPipelineLayout createLayout(VkDevice device, VkDescriptorSetLayout set, VkShaderStageFlags stages,
+                              uint32_t pushConstantBytes)
 {
-    const VkPushConstantRange range{.stageFlags = VK_SHADER_STAGE_FRAGMENT_BIT, .size = pushConstantBytes};
+    const VkPushConstantRange range{.stageFlags = stages, .size = pushConstantBytes};
     const VkPipelineLayoutCreateInfo info{.sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO,
                                           .setLayoutCount = 1,
                                           .pSetLayouts = &set,
@@ -72,13 +73,20 @@ std::vector<VkSpecializationMapEntry> constantEntries(size_t count)
     return entries;
 }
 
-// The fixed parts that every pass has: triangles without vertices, one sample, a viewport of the target's size that
-// is set while recording.
+std::span<const uint32_t> vertexShader(const PassDescription& pass)
+{
+    if (pass.vertices) {
+        return pass.vertices->shader;
+    }
+    return pass.cover == Cover::disc ? std::span<const uint32_t>(disc_vert) : fullscreen_vert;
+}
+
+// The fixed parts that every pass has: triangles, one sample, a viewport of the target's size that is set while
+// recording.
 VkPipeline createPipeline(VkDevice device, VkPipelineLayout layout, const PassDescription& pass)
 {
-    const std::span<const uint32_t> cover =
-        pass.cover == Cover::disc ? std::span<const uint32_t>(disc_vert) : fullscreen_vert;
-    const ShaderModule vertex = makeShaderModule(device, cover);
+    const VertexInput noInput, &input = pass.vertices ? *pass.vertices : noInput;
+    const ShaderModule vertex = makeShaderModule(device, vertexShader(pass));
     const ShaderModule fragment = makeShaderModule(device, pass.fragmentShader);
     const std::vector<VkSpecializationMapEntry> entries = constantEntries(pass.constants.size());
     const VkSpecializationInfo constants{.mapEntryCount = static_cast<uint32_t>(entries.size()),
@@ -87,8 +95,18 @@ VkPipeline createPipeline(VkDevice device, VkPipelineLayout layout, const PassDe
                                          .pData = pass.constants.data()};
     const std::array stages = {stage(VK_SHADER_STAGE_VERTEX_BIT, vertex),
                                stage(VK_SHADER_STAGE_FRAGMENT_BIT, fragment, &constants)};
-    const VkPipelineVertexInputStateCreateInfo noVertices{
-        .sType = VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO};
+    const VkVertexInputBindingDescription buffer{.binding = 0, .stride = input.stride};
+    const VkPipelineVertexInputStateCreateInfo vertices{
+        .sType = VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO,
+        .vertexBindingDescriptionCount = pass.vertices ? 1u : 0u,
+        .pVertexBindingDescriptions = &buffer,
+        .vertexAttributeDescriptionCount = static_cast<uint32_t>(input.attributes.size()),
+        .pVertexAttributeDescriptions = input.attributes.data()};
+    const VkPipelineDepthStencilStateCreateInfo nearest{.sType =
+                                                            VK_STRUCTURE_TYPE_PIPELINE_DEPTH_STENCIL_STATE_CREATE_INFO,
+                                                        .depthTestEnable = VK_TRUE,
+                                                        .depthWriteEnable = VK_TRUE,
+                                                        .depthCompareOp = VK_COMPARE_OP_LESS};
     const VkPipelineInputAssemblyStateCreateInfo triangles{
         .sType = VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO,
         .topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST};
@@ -118,16 +136,18 @@ VkPipeline createPipeline(VkDevice device, VkPipelineLayout layout, const PassDe
                                                    .pDynamicStates = dynamicStates.data()};
     const VkPipelineRenderingCreateInfo rendering{.sType = VK_STRUCTURE_TYPE_PIPELINE_RENDERING_CREATE_INFO,
                                                   .colorAttachmentCount = 1,
-                                                  .pColorAttachmentFormats = &pass.targetFormat};
+                                                  .pColorAttachmentFormats = &pass.targetFormat,
+                                                  .depthAttachmentFormat = input.depthFormat};
     const VkGraphicsPipelineCreateInfo info{.sType = VK_STRUCTURE_TYPE_GRAPHICS_PIPELINE_CREATE_INFO,
                                             .pNext = &rendering,
                                             .stageCount = stages.size(),
                                             .pStages = stages.data(),
-                                            .pVertexInputState = &noVertices,
+                                            .pVertexInputState = &vertices,
                                             .pInputAssemblyState = &triangles,
                                             .pViewportState = &oneViewport,
                                             .pRasterizationState = &filled,
                                             .pMultisampleState = &oneSample,
+                                            .pDepthStencilState = pass.vertices ? &nearest : nullptr,
                                             .pColorBlendState = &blend,
                                             .pDynamicState = &dynamic,
                                             .layout = layout};
@@ -141,7 +161,9 @@ VkPipeline createPipeline(VkDevice device, VkPipelineLayout layout, const PassDe
 
 Pipeline::Pipeline(const Context& context, const PassDescription& pass)
     : setLayout_(context.device(), createSetLayout(context.device(), pass.bindings)),
-      layout_(context.device(), createLayout(context.device(), setLayout_.get(), pass.pushConstantBytes)),
+      constantStages_(VK_SHADER_STAGE_FRAGMENT_BIT | (pass.vertices ? VK_SHADER_STAGE_VERTEX_BIT : 0)),
+      layout_(context.device(),
+              createLayout(context.device(), setLayout_.get(), constantStages_, pass.pushConstantBytes)),
       pipeline_(context.device(), createPipeline(context.device(), layout_.get(), pass)),
       vertexCount_(pass.cover == Cover::disc ? 42 : 3)
 {

@@ -1,5 +1,5 @@
+#include "engine/target/depth_buffer.h"
 #include "engine/gpu/check.h"
-#include "engine/target/mesh_pipeline.h"
 
 namespace nacre {
 namespace {

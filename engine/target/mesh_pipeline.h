@@ -1,14 +1,9 @@
 #pragma once
-#include <cstddef>
-
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
-#include <vulkan/vulkan.h>
 
-#include "engine/gpu/context.h"
-#include "engine/gpu/owned.h"
-#include "engine/gpu/texture.h"
+#include "engine/gpu/pipeline.h"
 
 namespace nacre {
 
@@ -20,33 +15,8 @@ struct MeshVertex {
     glm::vec2 uv;
 };
 
-// Depth in 32-bit floats, for one target.
-class DepthBuffer {
-public:
-    DepthBuffer(const Context& context, VkExtent3D extent);
-    VkImage image() const { return image_.get(); }
-    VkImageView view() const { return view_.get(); }
-
-private:
-    Owned<VkDeviceMemory, vkFreeMemory> memory_; // freed after the image and its view
-    Owned<VkImage, vkDestroyImage> image_;
-    Owned<VkImageView, vkDestroyImageView> view_;
-};
-
-// Draws triangles of MeshVertex with shaders/mesh_view.{vert,frag}: both sides, the nearest wins.
-class MeshPipeline {
-public:
-    MeshPipeline(const Context& context, bool mapped);
-    VkPipeline get() const { return pipeline_.get(); }
-    VkPipelineLayout layout() const { return layout_.get(); }
-
-private:
-    Owned<VkDescriptorSetLayout, vkDestroyDescriptorSetLayout> setLayout_;
-    Owned<VkPipelineLayout, vkDestroyPipelineLayout> layout_;
-    Owned<VkPipeline, vkDestroyPipeline> pipeline_;
-};
-
-inline constexpr VkFormat kDepthFormat = VK_FORMAT_D32_SFLOAT;
-inline constexpr VkShaderStageFlags kMeshStages = VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT;
+// Draws triangles of MeshVertex with shaders/mesh_view.{vert,frag} into kFloatFormat and kDepthFormat. `mapped`: with a
+// normal map.
+Pipeline meshPipeline(const Context& context, bool mapped);
 
 } // namespace nacre

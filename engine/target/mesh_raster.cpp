@@ -7,6 +7,7 @@
 #include "engine/gpu/buffer.h"
 #include "engine/gpu/pass.h"
 #include "engine/scene/parallel_for.h"
+#include "engine/target/depth_buffer.h"
 #include "engine/target/mesh_pipeline.h"
 #include "engine/target/mesh_resolve.h"
 #include "engine/target/normal_map_scale.h"
@@ -63,7 +64,7 @@ public:
           target_(makeTarget(context, extent_, kFloatFormat)), depth_(context, extent_),
           vertices_(context, kTrianglesPerUpload * 3 * sizeof(MeshVertex), VK_BUFFER_USAGE_VERTEX_BUFFER_BIT),
           nearest_(makeSampler(context, VK_FILTER_NEAREST)), noMap_(uploadNormalMap(context, NormalMap(1, 1))),
-          plain_(context, false)
+          plain_(meshPipeline(context, false))
     {
     }
 
@@ -107,7 +108,7 @@ private:
             return nullptr;
         }
         if (!mapped_) {
-            mapped_.emplace(context_, true);
+            mapped_ = meshPipeline(context_, true);
         }
         const auto [at, isNew] = maps_.try_emplace(part.normalMap.get());
         if (isNew) {
@@ -176,7 +177,7 @@ private:
                                       1.001f * reach,
                                       static_cast<float>(samplesPerSide_),
                                       label};
-        const MeshPipeline& pipeline = map ? *mapped_ : plain_;
+        const Pipeline& pipeline = map ? *mapped_ : plain_;
         beginRendering(commands);
         vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline.get());
         const ShaderInput input = textureInput(kBindingMeshNormalMap, nearest_, map ? *map : noMap_);
@@ -186,7 +187,7 @@ private:
                                          .descriptorType = kTextureInput,
                                          .pImageInfo = &input.image};
         context_.pushDescriptorSet(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline.layout(), 0, 1, &write);
-        vkCmdPushConstants(commands, pipeline.layout(), kMeshStages, 0, sizeof(constants), &constants);
+        vkCmdPushConstants(commands, pipeline.layout(), pipeline.constantStages(), 0, sizeof(constants), &constants);
         const VkBuffer buffer = vertices_.get();
         const VkDeviceSize offset = 0;
         vkCmdBindVertexBuffers(commands, 0, 1, &buffer, &offset);
@@ -204,8 +205,8 @@ private:
     Buffer vertices_;
     Sampler nearest_;
     Texture noMap_; // the shader has a place for one
-    MeshPipeline plain_;
-    std::optional<MeshPipeline> mapped_;
+    Pipeline plain_;
+    std::optional<Pipeline> mapped_;
     std::map<const NormalMap*, Texture> maps_;
     bool isEmpty_ = true;
 };
