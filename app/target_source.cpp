@@ -168,12 +168,16 @@ TargetReport targetOfHeightMap(const TargetCommandArguments& arguments)
     return report;
 }
 
-void reportPieces(const IntegratedSurface& integrated, TargetReport& report)
+void finish(const TargetCommandArguments& arguments, IntegratedSurface integrated, Stopwatch& watch,
+            TargetReport& report)
 {
     if (integrated.pieces > 0) {
         report.lines.push_back(fmt::format("integrated   {} piece{} of connected pixels", integrated.pieces,
                                            integrated.pieces == 1 ? "" : "s"));
     }
+    report.surface = std::move(integrated.surface);
+    fit(arguments, report);
+    report.stages.push_back({"integrate", watch.lap()});
 }
 
 TargetReport targetOfNormalMap(const TargetCommandArguments& arguments)
@@ -187,11 +191,7 @@ TargetReport targetOfNormalMap(const TargetCommandArguments& arguments)
         report.warnings.push_back(warning);
     }
     report.stages.push_back({"check", watch.lap()});
-    IntegratedSurface integrated = surfaceOfNormals(map);
-    reportPieces(integrated, report);
-    report.surface = std::move(integrated.surface);
-    fit(arguments, report);
-    report.stages.push_back({"integrate", watch.lap()});
+    finish(arguments, surfaceOfNormals(map), watch, report);
     return report;
 }
 
@@ -203,11 +203,7 @@ TargetReport targetOfSurface(const TargetCommandArguments& arguments)
     Stopwatch watch;
     Surface acquired = loadSurface(arguments.source);
     report.stages.push_back({"read", watch.lap()});
-    IntegratedSurface integrated = surfaceWithoutMaterials(std::move(acquired));
-    reportPieces(integrated, report);
-    report.surface = std::move(integrated.surface);
-    fit(arguments, report);
-    report.stages.push_back({"integrate", watch.lap()});
+    finish(arguments, surfaceWithoutMaterials(std::move(acquired)), watch, report);
     return report;
 }
 

@@ -2,6 +2,7 @@
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 
+#include "assets/relief.h"
 #include "assets/smooth_noise.h"
 
 namespace nacre {
@@ -22,6 +23,17 @@ inline double foldHeight(const glm::dvec2& p, uint64_t seed)
         height += fold.slope / glm::length(fold.wave) * std::sin(glm::dot(fold.wave, p) + fold.phase + bend);
     }
     return height + 0.035 * smoothNoise(3.1 * p, seed) + 0.012 * smoothNoise(8.3 * p, seed + 1);
+}
+
+// A fabric of so many repeats a unit, whose at() answers in repeats, on folds of a slope. The fabric must live longer.
+template <class Fabric> Relief inFolds(const Fabric& fabric, double repeatsPerUnit, double slope, uint64_t seed)
+{
+    constexpr uint64_t kFoldSeed = 77; // folds are not the yarns' own noise
+    return [&fabric, repeatsPerUnit, slope, seed](const glm::dvec2& p) {
+        ReliefPoint point = fabric.at(p * repeatsPerUnit);
+        point.height = point.height / repeatsPerUnit + slope * foldHeight(p, seed + kFoldSeed);
+        return point;
+    };
 }
 
 } // namespace nacre

@@ -91,12 +91,8 @@ Target knit(int width, int height, const KnitOptions& options, int threads)
 {
     const double loopsPerUnit = 0.5 * options.loops;
     const Stockinette fabric(options, reliefSpacing(width, height) * loopsPerUnit);
-    const Relief relief = [&](const dvec2& p) {
-        ReliefPoint point = fabric.at(p * loopsPerUnit);
-        point.height = point.height / loopsPerUnit + options.drape * foldHeight(p, options.seed + 77);
-        return point;
-    };
-    return targetFromRelief(width, height, {"first yarn", "second yarn"}, relief, threads);
+    return targetFromRelief(width, height, {"first yarn", "second yarn"},
+                            inFolds(fabric, loopsPerUnit, options.drape, options.seed), threads);
 }
 
 } // namespace nacre

@@ -120,12 +120,8 @@ Target wovenCloth(int width, int height, const WovenClothOptions& options, int t
 {
     const double yarnsPerUnit = 0.5 * options.threads;
     const Weave weave(options, reliefSpacing(width, height) * yarnsPerUnit);
-    const Relief relief = [&](const dvec2& p) {
-        ReliefPoint point = weave.at(p * yarnsPerUnit);
-        point.height = point.height / yarnsPerUnit + options.drape * foldHeight(p, options.seed + 77);
-        return point;
-    };
-    return targetFromRelief(width, height, {"warp", "weft"}, relief, threads);
+    return targetFromRelief(width, height, {"warp", "weft"}, inFolds(weave, yarnsPerUnit, options.drape, options.seed),
+                            threads);
 }
 
 } // namespace nacre
