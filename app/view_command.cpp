@@ -20,8 +20,8 @@ namespace {
 struct ViewArguments {
     RenderArguments scene;
     std::filesystem::path capture;
-    std::filesystem::path screenshots = ".";
-    std::string window = "1280x720";
+    std::filesystem::path screenshots;
+    std::string window;
     bool headless = false;
 };
 
@@ -36,7 +36,10 @@ void check(const ViewArguments& arguments)
     if (!arguments.capture.empty() && arguments.scene.surface.empty()) {
         throw Error("", "--capture has no surface that was measured from it", "SURFACE with it", Error::kUsage);
     }
-    if (!arguments.headless && !std::filesystem::is_directory(arguments.screenshots)) {
+    if (arguments.headless && (!arguments.window.empty() || !arguments.screenshots.empty())) {
+        throw Error("", "--window and --screenshots are the window's", "--size and -o with --headless", Error::kUsage);
+    }
+    if (!arguments.screenshots.empty() && !std::filesystem::is_directory(arguments.screenshots)) {
         throw Error(arguments.screenshots, "is no folder", "one for screenshots");
     }
     checkSceneArguments(arguments.scene);
@@ -70,7 +73,7 @@ void runView(ViewArguments arguments)
     if (arguments.headless) {
         requireDestination(arguments.scene.output, arguments.scene.force);
     }
-    const PictureSize size = sizeFromArgument("--window", arguments.window);
+    const PictureSize size = sizeFromArgument("--window", arguments.window.empty() ? "1280x720" : arguments.window);
     makeAbsolute(arguments.scene);
     const ViewState state = viewStateOf(arguments.scene);
     const Choices choices = choicesOf(state);
@@ -83,7 +86,9 @@ void runView(ViewArguments arguments)
         fmt::print("wrote        {}, the render alone, and its state beside it\n", arguments.scene.output.string());
     } else {
         runViewer(context, state, choices, source,
-                  {.width = size.width, .height = size.height, .screenshots = arguments.screenshots});
+                  {.width = size.width,
+                   .height = size.height,
+                   .screenshots = arguments.screenshots.empty() ? "." : arguments.screenshots});
     }
 }
 

@@ -177,6 +177,12 @@ TEST_F(RenderTest, ViewRefusesPhotographsThatAreNone)
                   3, "none");
 }
 
+TEST_F(RenderTest, ViewWithoutAWindowTakesNoWindowsOptions)
+{
+    expectRefusal(runNacre({"view", path("s.nacre"), "--headless", "-o", path("new.png"), "--window", "64x48"}), 2,
+                  "--window");
+}
+
 TEST_F(RenderTest, BadDataIsRefused)
 {
     expectRefusal(render("new.png", {"--onto", path("nothing.exr")}), 3, "does not exist");
