@@ -1,14 +1,18 @@
 #version 460
 // The fast path: one lookup of the material's ball, which holds all lights. Plain balls are already the display's
-// codes; modulated ones hold the square root of exposed radiance, to be multiplied by the pixel's albedo factor.
+// codes; modulated ones hold the square root of exposed radiance, to be multiplied by the pixel's albedo factor and
+// added to what a residual layer knows beside it.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
+#extension GL_EXT_control_flow_attributes : require
 #include "shared/ball.h"
-#include "shared/layout.h"
 #include "shared/tone.h"
+#include "residual_input.glsl"
 
 layout(constant_id = kConstantModulated) const bool kModulated = false;
 layout(constant_id = kConstantToneCurve) const int kToneCurve = kToneSrgb;
+
+layout(constant_id = kConstantBallResidual) const int kResidualLayers = 0;
 
 layout(binding = kBindingNormals) uniform sampler2D normals;
 layout(binding = kBindingAlbedo) uniform sampler2D albedos;
@@ -34,7 +38,11 @@ void main()
         int row = int((float(material) + 0.5) / constants.columns);
         texel += constants.size * ivec2(material - row * int(constants.columns), row);
         vec3 root = texelFetch(balls, texel, 0).rgb;
-        colour = displayCode(albedo.rgb * root * root, kToneCurve);
+        vec3 exposed = albedo.rgb * root * root;
+        if (kResidualLayers > 0) {
+            exposed += residualOfPixel(pixel, kResidualLayers);
+        }
+        colour = displayCode(exposed, kToneCurve);
     } else {
         colour = texelFetch(balls, texel, 0).rgb;
     }

@@ -34,6 +34,7 @@ Surface rowsOf(const Surface& surface, int first, int count)
     std::vector<int64_t> picked(pixels);
     std::iota(picked.begin(), picked.end(), static_cast<int64_t>(from));
     rows.horizon = pickedHorizon(surface.horizon, picked, width, count);
+    rows.residual = pickedResidual(surface.residual, picked, width, count);
     return rows;
 }
 
@@ -43,7 +44,7 @@ void copyRows(const Buffer& texels, Frame& frame, int first, int count)
     float* to = &frame.values[frame.index(0, first)];
     for (int i = 0; i < frame.width * count; ++i) {
         for (int c = 0; c < 3; ++c) {
-            to[3 * i + c] = from[i][c];
+            to[3 * i + c] = std::max(from[i][c], 0.0f); // residuals may take more than there is
         }
     }
 }
@@ -108,6 +109,9 @@ void DirectFrame::recordRows(VkCommandBuffer commands, const PixelTextures& pixe
                         .coverage = coverage,
                         .horizon = pixels.horizon.bytes() > 0 ? &pixels.horizon : nullptr},
                        inputs.lights, 0, inputs.lights.lightCount());
+    }
+    if (inputs.residual) {
+        inputs.residual->record(commands, pixels, static_cast<int>(inputs.tables.size()), rows.offset.y);
     }
     vkCmdEndRendering(commands);
 }

@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "engine/gpu/direct_pass.h"
+#include "engine/gpu/residual_pass.h"
 #include "engine/scene/display.h"
 #include "engine/scene/scene.h"
 
@@ -19,7 +20,8 @@ public:
     struct Inputs {
         std::span<const TableTexture> tables;
         const LightGroups& lights;
-        bool plain; // isPlain of the surface
+        bool plain;             // isPlain of the surface
+        ResidualPass* residual; // null: nothing is added
     };
     struct Look {
         Display display;

@@ -20,9 +20,12 @@ bool isFromTheFront(const glm::vec3& view)
     return view == glm::vec3(0, 0, 1);
 }
 
-constexpr std::array kBallBindings = {ShaderBinding{kBindingNormals, kTextureInput},
-                                      ShaderBinding{kBindingAlbedo, kTextureInput},
-                                      ShaderBinding{kBindingInput, kTextureInput}};
+constexpr std::array kBallBindings = {
+    ShaderBinding{kBindingNormals, kTextureInput}, ShaderBinding{kBindingAlbedo, kTextureInput},
+    ShaderBinding{kBindingInput, kTextureInput}, ShaderBinding{kBindingResidual, kTextureInput},
+    ShaderBinding{kBindingResidualWeights, kUniformInput}};
+
+constexpr float kMiddleGrey = 0.2140f; // linear, of code 0.5: what a layer by itself is drawn about
 
 bool dependsOnLights(Show show)
 {
@@ -37,7 +40,7 @@ bool dependsOnDisplay(Show show)
 } // namespace
 
 Renderer::Renderer(const Context& context, VkDeviceSize cacheBytes)
-    : context_(context), nearest_(makeSampler(context, VK_FILTER_NEAREST)), direct_(context),
+    : context_(context), nearest_(makeSampler(context, VK_FILTER_NEAREST)), direct_(context), residualPass_(context),
       balls_(context, direct_, cacheBytes), cacheBytes_(cacheBytes), directFrame_(context, direct_),
       exposureFrame_(context, direct_), falseColours_(context)
 {
@@ -57,6 +60,7 @@ void Renderer::setSurface(Surface surface, std::vector<BallSize> sizes)
     directFrame_.reset();
     exposureFrame_.reset();
     ballSizes_ = std::move(sizes);
+    lightsAreStale_ = true;
     radiance_.reset();
     picture_.reset();
     ballsAreStale_ = pictureIsStale_ = true;
@@ -84,6 +88,33 @@ void Renderer::setView(const glm::vec3& view)
         lightsHaveChanged();
         pictureIsStale_ = true;
     }
+}
+
+void Renderer::setResidual(ResidualUse use)
+{
+    if (use != residual_) {
+        residual_ = use;
+        lightsHaveChanged();
+    }
+}
+
+bool Renderer::hasResidual() const
+{
+    return !surface_.residual.empty() && residual_ != ResidualUse::off && showsResidual(view_);
+}
+
+DirectFrame::Inputs Renderer::inputs(float gain)
+{
+    uploadLights();
+    if (!hasResidual()) {
+        return {tables_, groups_, plain_, nullptr};
+    }
+    ResidualWeights weights = residualFrame_.weights;
+    if (residual_ == ResidualUse::alone) {
+        weights.offset += glm::vec4(glm::vec3(kMiddleGrey / std::exp2(display_.exposureStops)), 0);
+    }
+    residualPass_.upload(weights, gain);
+    return {tables_, groups_, plain_, &residualPass_};
 }
 
 void Renderer::setPath(RenderPath path)
@@ -174,21 +205,22 @@ Renderer::Target& Renderer::target()
 void Renderer::uploadLights()
 {
     if (lightsAreStale_) {
-        groups_.upload(context_, lights_, view_);
+        residualFrame_ = residualFrame(surface_.residual, lights_, hasResidual() ? residual_ : ResidualUse::off);
+        groups_.upload(context_, residualFrame_.base, view_);
         lightsAreStale_ = false;
     }
 }
 
 const Pipeline& Renderer::ballPipeline()
 {
-    static_assert(kConstantModulated == 0 && kConstantToneCurve == 1);
-    const std::pair key{int{!plain_}, display_.toneCurve};
+    static_assert(kConstantModulated == 0 && kConstantToneCurve == 1 && kConstantBallResidual == 2);
+    const std::array key = {int{!plain_}, display_.toneCurve,
+                            hasResidual() ? static_cast<int>(surface_.residual.layers()) : 0};
     auto found = ballPipelines_.find(key);
     if (found == ballPipelines_.end()) {
-        const std::array constants = {key.first, key.second};
         found = ballPipelines_
                     .emplace(key, Pipeline(context_, {.fragmentShader = ball_frag,
-                                                      .constants = constants,
+                                                      .constants = key,
                                                       .bindings = kBallBindings,
                                                       .pushConstantBytes = sizeof(BallConstants),
                                                       .targetFormat = kCodeFormat}))
@@ -211,9 +243,9 @@ void Renderer::drawDirectPicture()
 {
     const DirectFrame::Look look{display_, show_ == Show::coverage};
     const PixelTextures& from = pixels();
-    drawInto([&](VkCommandBuffer commands) {
-        directFrame_.recordPicture(commands, from, inputs(), look, picture_->texture);
-    });
+    const DirectFrame::Inputs lit = inputs(1);
+    drawInto(
+        [&](VkCommandBuffer commands) { directFrame_.recordPicture(commands, from, lit, look, picture_->texture); });
 }
 
 void Renderer::drawFalseColours()
@@ -237,7 +269,7 @@ void Renderer::updateBalls()
         balls_.setMaterials(ballSizes(), !plain_);
         ballsAreStale_ = false;
     }
-    balls_.setLights(lights_);
+    balls_.setLights(residualFrame_.base);
     balls_.setDisplay(display_);
     if (balls_.prepare()) {
         context_.run([&](VkCommandBuffer commands) { balls_.record(commands, tables_, groups_); });
@@ -253,11 +285,13 @@ void Renderer::drawBallPicture()
     const BallConstants constants{.size = balls_.displaySize(),
                                   .columns = static_cast<float>(balls_.columns()),
                                   .materials = static_cast<int>(tables_.size())};
+    static_cast<void>(inputs(std::exp2(display_.exposureStops)));
     drawInto([&](VkCommandBuffer commands) {
         beginRendering(commands, picture_->texture, Load::clear);
         const std::array shaderInputs = {textureInput(kBindingNormals, nearest_, from.normals),
                                          textureInput(kBindingAlbedo, nearest_, albedo),
-                                         textureInput(kBindingInput, nearest_, balls_.displayBalls())};
+                                         textureInput(kBindingInput, nearest_, balls_.displayBalls()),
+                                         residualPass_.components(from), residualPass_.weights()};
         draw(context_, commands, frame, shaderInputs, bytesOf(constants));
         vkCmdEndRendering(commands);
     });
@@ -303,8 +337,7 @@ Image Renderer::picture()
 Frame Renderer::radiance()
 {
     if (!radiance_) {
-        uploadLights();
-        radiance_ = directFrame_.radiance(surface_, inputs());
+        radiance_ = directFrame_.radiance(surface_, inputs(1));
     }
     return *radiance_;
 }
@@ -314,8 +347,7 @@ float Renderer::automaticExposure()
     if (!exposurePixels_) {
         exposurePixels_ = sampledPixels(surface_, kExposurePixels);
     }
-    uploadLights();
-    return nacre::automaticExposure(exposureFrame_.radiance(*exposurePixels_, inputs()));
+    return nacre::automaticExposure(exposureFrame_.radiance(*exposurePixels_, inputs(1)));
 }
 
 Frame Renderer::render(std::span<const Light> lights, const glm::vec3& view)
@@ -333,7 +365,8 @@ Frame Renderer::render(const Scene& scene)
 
 VkDeviceSize Renderer::deviceBytes() const
 {
-    VkDeviceSize bytes = balls_.bytes() + groups_.bytes() + directFrame_.bytes() + exposureFrame_.bytes();
+    VkDeviceSize bytes =
+        balls_.bytes() + groups_.bytes() + directFrame_.bytes() + exposureFrame_.bytes() + residualPass_.bytes();
     for (const TableTexture& table : tables_) {
         bytes += table.texture.bytes();
     }

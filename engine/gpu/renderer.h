@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <functional>
 #include <map>
 #include <optional>
@@ -9,6 +10,7 @@
 #include "engine/gpu/direct_frame.h"
 #include "engine/gpu/false_colour_pass.h"
 #include "engine/gpu/light_groups.h"
+#include "engine/gpu/residual_pass.h"
 #include "engine/gpu/surface_textures.h"
 #include "engine/scene/scene.h"
 
@@ -34,7 +36,8 @@ public:
     void setView(const glm::vec3& view); // unit, towards the viewer
     void setPath(RenderPath path);
     void setDisplay(const Display& display);
-    void setShow(Show show); // the picture by default
+    void setShow(Show show);           // the picture by default
+    void setResidual(ResidualUse use); // of a surface that has a layer; on by default
 
     // Linear radiance by the direct path in 32-bit floats, whatever the path that is set.
     Frame radiance();
@@ -79,7 +82,9 @@ private:
     void uploadLights();
     void lightsHaveChanged();
     const Pipeline& ballPipeline();
-    DirectFrame::Inputs inputs() const { return {tables_, groups_, plain_}; }
+    bool hasResidual() const;
+    // With the weights of the frame's lights, `gain` times, uploaded.
+    DirectFrame::Inputs inputs(float gain);
     // Draws into the picture's target, from black.
     void drawInto(const std::function<void(VkCommandBuffer)>& record);
     void drawDirectPicture();
@@ -89,12 +94,13 @@ private:
     const Context& context_;
     Sampler nearest_;
     DirectPass direct_;
+    ResidualPass residualPass_;
     BallCache balls_;
     VkDeviceSize cacheBytes_;
     DirectFrame directFrame_;
     DirectFrame exposureFrame_; // of exposurePixels_
     FalseColourPass falseColours_;
-    std::map<std::pair<int, int>, Pipeline> ballPipelines_; // by modulated and tone curve
+    std::map<std::array<int, 3>, Pipeline> ballPipelines_; // by modulated, tone curve and texels of components
 
     Surface surface_;
     bool plain_ = false;
@@ -104,6 +110,8 @@ private:
     std::optional<PixelTextures> pixels_; // compact
     std::vector<Light> lights_;
     LightGroups groups_;
+    ResidualUse residual_ = ResidualUse::on;
+    ResidualFrame residualFrame_; // of the lights, where they are not stale
     glm::vec3 view_{0, 0, 1};
     RenderPath path_ = RenderPath::automatic;
     Display display_;

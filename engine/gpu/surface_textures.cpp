@@ -42,7 +42,7 @@ std::vector<glm::vec4> albedoTexels(const Surface& surface)
 
 bool isPlain(const Surface& surface)
 {
-    return surface.materials.size() == 1 && surface.albedo.values.empty();
+    return surface.materials.size() == 1 && surface.albedo.values.empty() && surface.residual.empty();
 }
 
 PixelTextures uploadPixels(const Context& context, const Surface& surface, bool plain, Precision precision)
@@ -62,8 +62,12 @@ PixelTextures uploadPixels(const Context& context, const Surface& surface, bool 
             uploadTexture(context, VK_IMAGE_TYPE_2D, extent, full ? kFloatFormat : kHalfFormat, albedoTexels(surface));
     }
     if (!surface.horizon.empty()) {
-        textures.horizon =
-            uploadLayers(context, extent, static_cast<uint32_t>(surface.horizon.azimuths), surface.horizon.codes);
+        textures.horizon = uploadLayers(context, extent, static_cast<uint32_t>(surface.horizon.azimuths), kByteFormat,
+                                        surface.horizon.codes);
+    }
+    if (!surface.residual.empty()) {
+        textures.residual = uploadLayers(context, extent, static_cast<uint32_t>(surface.residual.layers()), kCodeFormat,
+                                         surface.residual.codes);
     }
     return textures;
 }

@@ -15,12 +15,13 @@ struct PixelTextures {
     // full: xyz, w = confidence, all 0 without data. compact: packed. Where the surface is plain, pixels without its
     // material count as without data.
     Texture normals;
-    Texture albedo;  // rgb, w = material index; empty where the surface is plain
-    Texture horizon; // an array of azimuths; empty where nothing casts shadows
-    VkDeviceSize bytes() const { return normals.bytes() + albedo.bytes() + horizon.bytes(); }
+    Texture albedo;   // rgb, w = material index; empty where the surface is plain
+    Texture horizon;  // an array of azimuths; empty where nothing casts shadows
+    Texture residual; // an array of four components a texel; empty where there is no layer
+    VkDeviceSize bytes() const { return normals.bytes() + albedo.bytes() + horizon.bytes() + residual.bytes(); }
 };
 
-// One material whose albedo factor is 1: the normals say it all.
+// One material whose albedo factor is 1, and no residual layer: the normals say it all.
 bool isPlain(const Surface& surface);
 
 // The pixels of `surface`; `plain` says what isPlain does of the whole of which they are.

@@ -1,5 +1,8 @@
 #include "engine/scene/reference.h"
 
+#include <algorithm>
+
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include "engine/scene/ball.h"
@@ -9,25 +12,55 @@
 namespace nacre {
 namespace {
 
-// `lookups`: horizonLookup of each light.
-glm::vec3 radianceUnderLights(const BrdfTable& table, const Scene& scene, std::span<const glm::vec4> lookups,
-                              size_t pixel)
+// A scene's lights, once for all pixels.
+struct PreparedLights {
+    ResidualFrame residual;
+    std::vector<glm::vec4> lookups; // horizonLookup of each
+};
+
+PreparedLights prepare(const Scene& scene)
+{
+    PreparedLights prepared;
+    const ResidualUse use = showsResidual(scene.view) ? ResidualUse::on : ResidualUse::off;
+    prepared.residual = residualFrame(scene.surface.residual, scene.lights, use);
+    for (const Light& light : scene.lights) {
+        prepared.lookups.push_back(horizonLookup(light.direction, scene.surface.horizon.azimuths));
+    }
+    return prepared;
+}
+
+glm::vec3 radianceUnderLights(const BrdfTable& table, const Scene& scene, const PreparedLights& lights, size_t pixel)
 {
     const glm::vec3& n = scene.surface.normals.normals[pixel];
     glm::vec3 sum(0);
     for (size_t i = 0; i < scene.lights.size(); ++i) {
-        const Light& light = scene.lights[i];
+        const Light& light = lights.residual.base[i];
         const float nDotL = glm::dot(n, light.direction);
         if (nDotL > 0) {
             const glm::vec3 f = evaluateTable(table, n, light.direction, scene.view).value;
-            sum +=
-                visibilityOf(scene.surface.horizon, lookups[i], pixel) * radianceFromBrdf(f, light.irradiance, nDotL);
+            sum += visibilityOf(scene.surface.horizon, lights.lookups[i], pixel) *
+                   radianceFromBrdf(f, light.irradiance, nDotL);
         }
     }
     return sum;
 }
 
-glm::vec3 radianceOfPixel(const Scene& scene, std::span<const glm::vec4> lookups, size_t pixel)
+glm::vec3 albedoOf(const Surface& surface, size_t pixel)
+{
+    const float* a = surface.albedo.values.empty() ? nullptr : &surface.albedo.values[3 * pixel];
+    return a == nullptr ? glm::vec3(1) : glm::vec3(a[0], a[1], a[2]);
+}
+
+// What the BRDF says, and what it does not know.
+glm::vec3 withResidual(const Scene& scene, const ResidualFrame& residual, glm::vec3 radiance, size_t pixel)
+{
+    if (scene.surface.residual.empty() || !showsResidual(scene.view)) {
+        return radiance;
+    }
+    return glm::max(radiance + residualOfPixel(scene.surface.residual, residual.weights, pixel), glm::vec3(0));
+}
+
+glm::vec3 radianceOfPixel(const Scene& scene, const PreparedLights& lights, size_t pixel)
 {
     const Surface& surface = scene.surface;
     const glm::vec3& n = surface.normals.normals[pixel];
@@ -37,9 +70,8 @@ glm::vec3 radianceOfPixel(const Scene& scene, std::span<const glm::vec4> lookups
     if (!hasNormal || !hasMaterial || glm::dot(n, scene.view) <= 0) {
         return glm::vec3(0);
     }
-    const glm::vec3 radiance = radianceUnderLights(surface.materials[label].table, scene, lookups, pixel);
-    const float* a = surface.albedo.values.empty() ? nullptr : &surface.albedo.values[3 * pixel];
-    return a == nullptr ? radiance : glm::vec3(a[0], a[1], a[2]) * radiance;
+    const glm::vec3 radiance = radianceUnderLights(surface.materials[label].table, scene, lights, pixel);
+    return withResidual(scene, lights.residual, albedoOf(surface, pixel) * radiance, pixel);
 }
 
 } // namespace
@@ -48,13 +80,10 @@ Frame renderReference(const Scene& scene, int threads)
 {
     const NormalMap& normals = scene.surface.normals;
     Frame frame(normals.width, normals.height, 3);
-    std::vector<glm::vec4> lookups;
-    for (const Light& light : scene.lights) {
-        lookups.push_back(horizonLookup(light.direction, scene.surface.horizon.azimuths));
-    }
+    const PreparedLights lights = prepare(scene);
     parallelFor(frame.pixelCount(), 1024, threads, [&](size_t first, size_t last) {
         for (size_t pixel = first; pixel < last; ++pixel) {
-            const glm::vec3 radiance = radianceOfPixel(scene, lookups, pixel);
+            const glm::vec3 radiance = radianceOfPixel(scene, lights, pixel);
             for (int c = 0; c < 3; ++c) {
                 frame.values[3 * pixel + c] = radiance[c];
             }
@@ -66,9 +95,10 @@ Frame renderReference(const Scene& scene, int threads)
 Image referenceBallPicture(const Scene& scene, std::span<const BallSize> sizes, const Display& display, int threads)
 {
     const Surface& surface = scene.surface;
+    const PreparedLights lights = prepare(scene);
     std::vector<Ball> balls;
     for (size_t m = 0; m < surface.materials.size(); ++m) {
-        balls.push_back(makeBall(surface.materials[m].table, scene.lights, sizes[m].radiance, threads));
+        balls.push_back(makeBall(surface.materials[m].table, lights.residual.base, sizes[m].radiance, threads));
     }
     Frame frame(surface.normals.width, surface.normals.height, 3);
     for (size_t pixel = 0; pixel < frame.pixelCount(); ++pixel) {
@@ -77,11 +107,10 @@ Image referenceBallPicture(const Scene& scene, std::span<const BallSize> sizes, 
         if (surface.normals.confidence[pixel] <= 0 || label >= balls.size() || n.z <= 0) {
             continue;
         }
-        const glm::vec3 radiance = sampleStretchedBall(balls[label], sizes[label].display, n);
-        const float* a = surface.albedo.values.empty() ? nullptr : &surface.albedo.values[3 * pixel];
-        for (int c = 0; c < 3; ++c) {
-            frame.values[3 * pixel + c] = a == nullptr ? radiance[c] : a[c] * radiance[c];
-        }
+        const glm::vec3 radiance =
+            albedoOf(surface, pixel) * sampleStretchedBall(balls[label], sizes[label].display, n);
+        const glm::vec3 all = withResidual(scene, lights.residual, radiance, pixel);
+        std::copy_n(&all.x, 3, &frame.values[3 * pixel]);
     }
     return displayedImage(frame, display);
 }

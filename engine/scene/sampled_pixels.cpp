@@ -42,6 +42,7 @@ Surface sampledPixels(const Surface& surface, size_t most)
         }
     }
     sample.horizon = pickedHorizon(surface.horizon, picked, width, height);
+    sample.residual = pickedResidual(surface.residual, picked, width, height);
     return sample;
 }
 

@@ -9,6 +9,7 @@
 #include "engine/scene/error.h"
 #include "engine/scene/json_vector.h"
 #include "engine/scene/material_file.h"
+#include "engine/scene/residual_file.h"
 #include "engine/scene/whole_file.h"
 
 namespace nacre {
@@ -131,6 +132,9 @@ Surface surfaceOf(const fs::path& folder, const Json& json)
         surface.lights.push_back({light.at("photograph").get<std::string>(),
                                   Light{vec3Of(light.at("direction")), vec3Of(light.at("irradiance"))}});
     }
+    if (json.contains("residual")) {
+        surface.residual = loadResidual(folder, json.at("residual"), surface);
+    }
     return surface;
 }
 
@@ -162,6 +166,9 @@ void saveSurface(const fs::path& folder, const Surface& surface, bool replace)
     MaterialFolder materials(to);
     for (size_t i = 0; i < surface.materials.size(); ++i) {
         json["materials"].push_back(materials.save(surface.materials[i], i));
+    }
+    if (!surface.residual.empty()) {
+        json["residual"] = saveResidual(to, surface.residual);
     }
     writeTextFile(to / "surface.json", json.dump(2) + "\n");
     output.commit();
@@ -218,6 +225,7 @@ Surface fittedSurface(const Surface& surface, int width, int height)
                                  static_cast<float>(height) / static_cast<float>(surface.normals.height));
     const std::vector<int64_t> from = fittedPixels(surface.normals.width, surface.normals.height, width, height);
     fitted.horizon = pickedHorizon(surface.horizon, from, width, height);
+    fitted.residual = pickedResidual(surface.residual, from, width, height);
     for (size_t i = 0; i < from.size(); ++i) {
         if (from[i] < 0) {
             continue;

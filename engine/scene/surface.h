@@ -11,6 +11,7 @@
 #include "engine/scene/image.h"
 #include "engine/scene/light.h"
 #include "engine/scene/normal_map.h"
+#include "engine/scene/residual_layer.h"
 
 namespace nacre {
 
@@ -47,13 +48,14 @@ struct Surface {
     // One channel: pixels of the map towards the viewer, up to a constant for each connected piece, 0 where there is no
     // normal. Empty: not known.
     Image height;
-    HorizonMap horizon; // of the height, for cast shadows; empty: lights reach all that faces them. In no file
+    ResidualLayer residual; // of the captured photographs; empty: the BRDF is all
+    HorizonMap horizon;     // of the height, for cast shadows; empty: lights reach all that faces them. In no file
     std::vector<CapturedLight> lights;
     RadianceScale scale = RadianceScale::relative;
 };
 
 // surface.json, normals.exr, labels.png, albedo.exr (where estimated), height.exr (where known), material_N.exr and
-// material_N_coverage.exr.
+// material_N_coverage.exr, residual_NN.png and residual_weights.exr (where there is a residual layer).
 // Written into a temporary folder, then renamed; an existing folder is refused without `replace`.
 void saveSurface(const std::filesystem::path& folder, const Surface& surface, bool replace);
 Surface loadSurface(const std::filesystem::path& folder);
@@ -63,8 +65,8 @@ Surface transferredSurface(const NormalMap& normals, const Material& material);
 // The same of another surface's normals, height and horizon.
 Surface transferredSurface(const Surface& target, const Material& material);
 
-// The same surface in a picture of another size: fittedNormalMap, with albedo factors, labels, height and horizon
-// alike.
+// The same surface in a picture of another size: fittedNormalMap, with albedo factors, labels, height, residual
+// layer and horizon alike.
 Surface fittedSurface(const Surface& surface, int width, int height);
 
 } // namespace nacre

@@ -1,0 +1,20 @@
+// What shaders that add a residual layer read. Needs GL_EXT_control_flow_attributes and scalar layout.
+#include "shared/layout.h"
+#include "shared/residual.h"
+
+layout(binding = kBindingResidual) uniform sampler2DArray components;
+layout(scalar, binding = kBindingResidualWeights) uniform Weights
+{
+    ResidualWeights weights;
+};
+
+vec3 residualOfPixel(ivec2 pixel, int layers)
+{
+    vec3 sum = weights.offset.rgb;
+    [[unroll]] for (int i = 0; i < layers; ++i) {
+        const int k = i * kComponentsPerTexel;
+        sum += residualOfTexel(texelFetch(components, ivec3(pixel, i), 0), weights.gains[k], weights.gains[k + 1],
+                               weights.gains[k + 2], weights.gains[k + 3]);
+    }
+    return sum;
+}
