@@ -7,6 +7,7 @@
 #include "acquisition/material_albedo.h"
 #include "acquisition/material_models.h"
 #include "acquisition/material_samples.h"
+#include "acquisition/residual/residual_estimate.h"
 #include "engine/scene/error.h"
 
 namespace nacre {
@@ -142,6 +143,13 @@ Acquisition acquire(const Capture& capture, const AcquireOptions& options, const
     result.shared = std::move(reduced.shared);
     result.surface = surfaceOf(selectPhotographs(capture, estimate.given), result, std::move(estimate.normals),
                                std::move(albedo), std::move(reduced.materials));
+    if (options.residual.choice != ResidualChoice::none) {
+        progress("residual", 0);
+        clock.time("residual", [&] {
+            result.surface.residual = estimateResidual(
+                result.surface, options.residual, [&](const auto& visit) { walk.revisit(visit); }, result.residual);
+        });
+    }
     return result;
 }
 

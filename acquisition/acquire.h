@@ -3,6 +3,7 @@
 #include "acquisition/brdf/interpolation_choice.h"
 #include "acquisition/brdf/shared_ladder.h"
 #include "acquisition/normal_estimation.h"
+#include "acquisition/residual/residual_report.h"
 #include "acquisition/segmentation/segmentation.h"
 #include "engine/scene/surface.h"
 
@@ -21,9 +22,10 @@ struct Acquisition {
     SampleCounts samples;          // of all materials' inner pixels
     std::vector<MaterialFit> fits; // one a material
     SharedLadder shared;           // of several materials, where a smaller model was asked for
+    ResidualReport residual;
 };
 
-// Photographs -> lights -> normals -> materials -> samples -> BRDF tables -> albedo factors: the whole chain. A capture
+// Photographs -> lights -> normals -> materials -> samples -> BRDF tables -> albedo factors -> residual layer: the whole chain. A capture
 // that fits into options.byteBudget is read once, a larger one once more for each of its later stages.
 Acquisition acquire(const Capture& capture, const AcquireOptions& options, const Progress& progress);
 

@@ -9,6 +9,7 @@
 #include "acquisition/lights/lights.h"
 #include "acquisition/lights/well_spread_lights.h"
 #include "acquisition/normals/normals.h"
+#include "acquisition/residual/residual_options.h"
 #include "acquisition/segmentation/segment_options.h"
 
 namespace nacre {
@@ -22,6 +23,7 @@ struct AcquireOptions {
     InterpolationOptions interpolation;
     BakeOptions bake;
     LadderOptions ladder; // nothing asked: the full table
+    ResidualOptions residual;
     size_t byteBudget = ObservationReader::kDefaultByteBudget;
     // Photographs that disagree with the rest, and irradiances that nobody gave.
     bool correctIntensities = true;
@@ -30,7 +32,7 @@ struct AcquireOptions {
     void setThreads(int threads)
     {
         calibration.threads = normals.threads = samples.threads = interpolation.threads = bake.threads =
-            ladder.threads = threads;
+            ladder.threads = residual.threads = threads;
     }
 };
 

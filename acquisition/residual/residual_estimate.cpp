@@ -1,0 +1,161 @@
+#include "acquisition/residual/residual_estimate.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "acquisition/residual/principal_components.h"
+#include "acquisition/residual/residual_choice.h"
+#include "acquisition/residual/residual_encoder.h"
+#include "engine/scene/error.h"
+#include "engine/scene/measures.h"
+
+namespace nacre {
+namespace {
+
+constexpr size_t kFewestLights = 6; // three for the plane through them, as many again to judge it
+constexpr double kLeastHullArea = 1e-3;
+constexpr double kTruncationShare =
+    0.25; // of the error that lights left out have: less than 1 dB of it, most of it noise
+
+// The cost of judging grows with the square of the lights.
+size_t samplePixels(size_t lights)
+{
+    return std::clamp<size_t>(size_t{25'000'000} / (lights * lights), 512, 4096);
+}
+
+std::string whyNoLayer(const std::vector<Light>& lights, const std::vector<glm::vec2>& nodes)
+{
+    if (lights.size() < kFewestLights) {
+        return fmt::format("{} lights are too few to guess between them", lights.size());
+    }
+    return LightHull(nodes).area() < kLeastHullArea ? "the lights lie on a line" : "";
+}
+
+// Rows of an even sample of the shaded pixels.
+ResidualRows sampleRows(const Surface& surface, const EachBlock& eachBlock, size_t shaded, size_t most)
+{
+    const size_t stride = std::max<size_t>(1, (shaded + most - 1) / most);
+    size_t seen = 0;
+    ResidualRows all;
+    eachBlock([&](const Observations& block) {
+        std::vector<size_t> places;
+        for (const size_t place : shadedPlaces(block, surface)) {
+            if (seen++ % stride == 0) {
+                places.push_back(place);
+            }
+        }
+        const ResidualRows rows = residualRows(block, places, surface);
+        const Eigen::Index before = all.observed.rows();
+        all.observed.conservativeResize(before + rows.observed.rows(), rows.observed.cols());
+        all.predicted.conservativeResizeLike(all.observed);
+        all.observed.bottomRows(rows.observed.rows()) = rows.observed;
+        all.predicted.bottomRows(rows.predicted.rows()) = rows.predicted;
+    });
+    return all;
+}
+
+float peakOf(const ResidualRows& rows, const std::vector<Light>& lights)
+{
+    std::vector<float> values;
+    for (Eigen::Index row = 0; row < rows.observed.rows(); ++row) {
+        for (size_t i = 0; i < lights.size(); ++i) {
+            values.push_back(rows.observed(row, static_cast<Eigen::Index>(i)) * lights[i].irradiance[row % 3]);
+        }
+    }
+    return std::max(quantile(values, 0.99), 1e-12f);
+}
+
+// Squared error over peak, clipped as PSNR clips it, of a sample whose residuals are only known up to `left`.
+double truncationError(const ResidualRows& rows, const Eigen::MatrixXf& left, const std::vector<Light>& lights,
+                       float peak)
+{
+    const auto count = static_cast<Eigen::Index>(lights.size());
+    double sum = 0;
+    for (Eigen::Index row = 0; row < rows.observed.rows(); ++row) {
+        for (Eigen::Index i = 0; i < count; ++i) {
+            const float scale = lights[i].irradiance[row % 3] / peak, truth = rows.observed(row, i);
+            const float guess = truth - left(row / 3, row % 3 * count + i);
+            const float error = std::clamp(scale * truth, 0.0f, 1.0f) - std::clamp(scale * guess, 0.0f, 1.0f);
+            sum += double{error} * error;
+        }
+    }
+    return sum / static_cast<double>(std::max<Eigen::Index>(rows.observed.size(), 1));
+}
+
+// The first components that are good enough, at most as many as the bytes allow.
+Eigen::MatrixXf enoughComponents(const ResidualRows& rows, const std::vector<Light>& lights, float peak,
+                                 const ResidualOptions& options, size_t most, ResidualReport& report)
+{
+    Eigen::MatrixXf left = residualsOf(rows, report.fit.trust);
+    const Eigen::MatrixXf basis = principalComponents(left, static_cast<int>(most));
+    const Eigen::MatrixXf amounts = left * basis;
+    const double target = options.toleranceDecibels > 0 ? std::pow(10.0, -options.toleranceDecibels / 10)
+                                                        : kTruncationShare * report.fit.layerError;
+    Eigen::Index count = 0;
+    double error = truncationError(rows, left, lights, peak);
+    while (count < basis.cols() && (error > target || count == 0)) {
+        left -= amounts.col(count) * basis.col(count).transpose();
+        error = truncationError(rows, left, lights, peak);
+        ++count;
+    }
+    report.components = static_cast<int>(count);
+    report.capturedPsnr = -10 * std::log10(std::max(error, 1e-12));
+    return basis.leftCols(count);
+}
+
+// Bytes of one component: its picture on the shaded pixels and its weights.
+size_t bytesPerComponent(size_t pixels, size_t lights)
+{
+    return pixels + (lights + 3) * sizeof(glm::vec3);
+}
+
+size_t shadedPixels(const Surface& surface)
+{
+    size_t shaded = 0;
+    for (size_t i = 0; i < surface.labels.size(); ++i) {
+        shaded += surface.normals.confidence[i] > 0 && surface.labels[i] < surface.materials.size();
+    }
+    return shaded;
+}
+
+} // namespace
+
+ResidualLayer estimateResidual(const Surface& surface, const ResidualOptions& options, const EachBlock& eachBlock,
+                               ResidualReport& report)
+{
+    report = {.choice = options.choice};
+    std::vector<Light> lights;
+    std::vector<glm::vec2> nodes;
+    for (const CapturedLight& light : surface.lights) {
+        lights.push_back(light.light);
+        nodes.push_back(lightPlanePoint(light.light.direction));
+    }
+    report.whyNot = whyNoLayer(lights, nodes);
+    if (!report.whyNot.empty() && options.choice == ResidualChoice::difference) {
+        throw Error("", "no residual layer can be made: " + report.whyNot,
+                    fmt::format("{} lights or more, spread over a solid angle", kFewestLights));
+    }
+    const size_t pixels = shadedPixels(surface);
+    if (!report.whyNot.empty() || options.choice == ResidualChoice::none || pixels == 0) {
+        return {};
+    }
+    const ResidualRows rows = sampleRows(surface, eachBlock, pixels, samplePixels(lights.size()));
+    const float peak = peakOf(rows, lights);
+    report.fit = chooseResidualFit(rows, lights, peak, options.choice);
+    const size_t each = bytesPerComponent(pixels, lights.size());
+    const size_t afforded = options.budgetBytes > 0 ? options.budgetBytes / each : kMostResidualComponents;
+    report.fit.isKept = report.fit.isKept && afforded > 0;
+    if (!report.fit.isKept) {
+        return {};
+    }
+    const Eigen::MatrixXf basis =
+        enoughComponents(rows, lights, peak, options, std::min<size_t>(afforded, kMostResidualComponents), report);
+    report.bytes = each * static_cast<size_t>(report.components);
+    ResidualEncoder encoder(surface, nodes, report.fit, rows, basis);
+    eachBlock([&](const Observations& block) { encoder.encode(block, options.threads); });
+    return std::move(encoder.layer);
+}
+
+} // namespace nacre

@@ -1,0 +1,27 @@
+#pragma once
+#include <span>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "acquisition/capture/observations.h"
+#include "engine/scene/surface.h"
+
+namespace nacre {
+
+// Radiance over irradiance of some pixels: a row a pixel and channel, 3 * pixel + channel, a column a light.
+struct ResidualRows {
+    Eigen::MatrixXf observed;  // of clipped values at least what is predicted: how much more there was is not known
+    Eigen::MatrixXf predicted; // by the surface's BRDF
+};
+
+// Of the block's pixels at `places`, all of which have a normal and a material.
+ResidualRows residualRows(const Observations& block, std::span<const size_t> places, const Surface& surface);
+
+// [pixel, channel * lights + light]: what is left of each pixel where the BRDF is trusted so far.
+Eigen::MatrixXf residualsOf(const ResidualRows& rows, float trust);
+
+// Places of the block's pixels that have a normal and a material.
+std::vector<size_t> shadedPlaces(const Observations& block, const Surface& surface);
+
+} // namespace nacre

@@ -1,0 +1,282 @@
+#include <cmath>
+
+#include <Eigen/Dense>
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+
+#include "acquisition/residual/light_spline.h"
+#include "acquisition/residual/principal_components.h"
+#include "acquisition/residual/residual_choice.h"
+#include "acquisition/residual/residual_estimate.h"
+#include "engine/scene/residual_layer.h"
+#include "tests/support/expect_error.h"
+#include "tests/support/residual_surface.h"
+
+namespace nacre {
+namespace {
+
+std::vector<glm::vec2> spiral(int count)
+{
+    std::vector<glm::vec2> nodes;
+    for (int i = 0; i < count; ++i) {
+        const float r = 0.8f * std::sqrt((static_cast<float>(i) + 0.5f) / static_cast<float>(count));
+        nodes.push_back(r * glm::vec2(std::cos(2.4f * static_cast<float>(i)), std::sin(2.4f * static_cast<float>(i))));
+    }
+    return nodes;
+}
+
+// What a spline of some values says at a point.
+double splineAt(const std::vector<glm::vec2>& nodes, const Eigen::VectorXd& values, double penalty,
+                const glm::vec2& point)
+{
+    const Eigen::VectorXd factors = splineFactors(nodes, penalty) * values;
+    const auto n = static_cast<Eigen::Index>(nodes.size());
+    double sum = factors(n) + factors(n + 1) * point.x + factors(n + 2) * point.y;
+    for (Eigen::Index i = 0; i < n; ++i) {
+        sum += factors(i) * thinPlateKernel(point, nodes[i]);
+    }
+    return sum;
+}
+
+TEST(LightSpline, KeepsPlanesWhateverThePenalty)
+{
+    const std::vector<glm::vec2> nodes = spiral(12);
+    Eigen::VectorXd values(12);
+    for (int i = 0; i < 12; ++i) {
+        values(i) = 1 + 2.0 * nodes[i].x - 3.0 * nodes[i].y;
+    }
+    for (const double penalty : {1e-4, 1.0}) {
+        EXPECT_NEAR(splineAt(nodes, values, penalty, {0.3f, -0.6f}), 1 + 0.6 + 1.8, 1e-5);
+    }
+}
+
+TEST(LightSpline, GoesThroughItsNodesWithoutPenalty)
+{
+    const std::vector<glm::vec2> nodes = spiral(20);
+    Eigen::VectorXd values(20);
+    for (int i = 0; i < 20; ++i) {
+        values(i) = std::sin(3.0 * i);
+    }
+    for (int i = 0; i < 20; ++i) {
+        EXPECT_NEAR(splineAt(nodes, values, 1e-9, nodes[i]), values(i), 1e-5);
+    }
+}
+
+// The closed form and the refit are the same as fitting the others from scratch.
+TEST(LightSpline, LeavingOneOutIsFittingTheOthers)
+{
+    const std::vector<glm::vec2> nodes = spiral(14);
+    const Eigen::MatrixXd weights = leaveOneOutWeights(nodes, 1e-2);
+    Eigen::VectorXd values(14);
+    for (int i = 0; i < 14; ++i) {
+        values(i) = std::cos(2.0 * i);
+    }
+    for (int left = 0; left < 14; ++left) {
+        std::vector<glm::vec2> others = nodes;
+        others.erase(others.begin() + left);
+        Eigen::VectorXd rest(13);
+        rest << values.head(left), values.tail(13 - left);
+        const glm::vec2 asked = pacedOutside(LightHull(others), nodes[left]);
+        EXPECT_NEAR(weights.row(left).dot(values), splineAt(others, rest, 1e-2, asked), 1e-6) << left;
+        EXPECT_EQ(weights(left, left), 0);
+    }
+}
+
+TEST(PrincipalComponents, AreTheRightSingularVectors)
+{
+    Eigen::MatrixXf rows(200, 30);
+    for (Eigen::Index i = 0; i < rows.size(); ++i) {
+        rows(i) =
+            static_cast<float>(std::sin(0.37 * static_cast<double>(i)) * std::exp(-0.1 * static_cast<double>(i / 200)));
+    }
+    const Eigen::MatrixXf found = principalComponents(rows, 5);
+    const Eigen::JacobiSVD<Eigen::MatrixXf> svd(rows, Eigen::ComputeThinV);
+    EXPECT_NEAR((found.transpose() * found - Eigen::MatrixXf::Identity(5, 5)).norm(), 0, 1e-4);
+    // No five columns hold more energy.
+    const float best = (rows * svd.matrixV().leftCols(5)).squaredNorm();
+    EXPECT_NEAR((rows * found).squaredNorm(), best, 1e-3f * best);
+}
+
+std::vector<Light> lightsOf(const std::vector<glm::vec2>& nodes)
+{
+    std::vector<Light> lights;
+    for (const glm::vec2& node : nodes) {
+        lights.push_back({{node.x, node.y, std::sqrt(1 - glm::dot(node, node))}, {1, 1, 1}});
+    }
+    return lights;
+}
+
+// Observations that a BRDF explains but for a part that is smooth over lights, `amount` strong.
+ResidualRows rowsOf(const std::vector<Light>& lights, float amount)
+{
+    ResidualRows rows;
+    const auto n = static_cast<Eigen::Index>(lights.size());
+    rows.observed.resize(300, n);
+    rows.predicted.resize(300, n);
+    for (Eigen::Index row = 0; row < 300; ++row) {
+        for (Eigen::Index i = 0; i < n; ++i) {
+            const glm::vec3& l = lights[i].direction;
+            // A highlight that is too sharp for splines between so few lights.
+            const float predicted =
+                0.3f * l.z + 0.4f * std::exp(-40 * std::pow(l.x - 0.001f * static_cast<float>(row), 2.0f));
+            rows.predicted(row, i) = predicted;
+            rows.observed(row, i) =
+                predicted + amount * (l.x * l.y + 0.3f * std::sin(static_cast<float>(row / 3)) * l.y);
+        }
+    }
+    return rows;
+}
+
+TEST(ResidualChoice, KeepsNothingWhereTheBrdfIsRight)
+{
+    const std::vector<Light> lights = lightsOf(spiral(24));
+    EXPECT_FALSE(chooseResidualFit(rowsOf(lights, 0), lights, 1, ResidualChoice::automatic).isKept);
+}
+
+TEST(ResidualChoice, KeepsWhatIsSmoothOverLights)
+{
+    const std::vector<Light> lights = lightsOf(spiral(24));
+    const ResidualFit fit = chooseResidualFit(rowsOf(lights, 0.3f), lights, 1, ResidualChoice::automatic);
+    EXPECT_TRUE(fit.isKept);
+    EXPECT_EQ(fit.trust, 1); // the highlight is the BRDF's
+    EXPECT_GT(fit.layerPsnr, fit.brdfPsnr + 6);
+}
+
+TEST(ResidualChoice, IsMadeWhereItIsInsistedOn)
+{
+    const std::vector<Light> lights = lightsOf(spiral(24));
+    EXPECT_TRUE(chooseResidualFit(rowsOf(lights, 0), lights, 1, ResidualChoice::difference).isKept);
+}
+
+// A block that shows residualSurface's BRDF and its layer under the captured lights.
+Observations shownBy(const Surface& surface)
+{
+    Observations seen;
+    seen.lightCount = surface.lights.size();
+    const float c = 0.3f / 3.14159265f;
+    for (size_t p = 0; p < surface.labels.size(); ++p) {
+        seen.pixels.push_back(static_cast<uint32_t>(p));
+        for (const CapturedLight& light : surface.lights) {
+            const glm::vec3& l = light.light.direction;
+            const float shading = std::max(glm::dot(surface.normals.normals[p], l), 0.0f);
+            const auto position = static_cast<float>(p) / static_cast<float>(surface.labels.size());
+            seen.radiance.push_back(glm::vec3(c * shading) +
+                                    0.05f * glm::vec3(1, 0.5f, 0.2f) * (position * l.x + l.y * l.y));
+        }
+    }
+    seen.saturated.assign(seen.radiance.size(), 0);
+    return seen;
+}
+
+TEST(ResidualEstimate, ShowsThePhotographsAgain)
+{
+    Surface surface = residualSurface(16);
+    surface.residual = {};
+    const Observations seen = shownBy(surface);
+    const auto each = [&](const auto& visit) { visit(seen); };
+    ResidualReport report;
+    const ResidualOptions options{.choice = ResidualChoice::difference, .toleranceDecibels = 50, .threads = 1};
+    surface.residual = estimateResidual(surface, options, each, report);
+    ASSERT_FALSE(surface.residual.empty());
+    EXPECT_GE(report.capturedPsnr, 50);
+    for (size_t i = 0; i < surface.lights.size(); ++i) {
+        const ResidualFrame frame = residualFrame(surface.residual, std::vector<Light>{surface.lights[i].light});
+        for (size_t p = 0; p < seen.pixels.size(); ++p) {
+            const float shading =
+                std::max(glm::dot(surface.normals.normals[p], surface.lights[i].light.direction), 0.0f);
+            const glm::vec3 brdf = frame.base[0].irradiance * (0.3f / 3.14159265f * shading);
+            const glm::vec3 shown = brdf + residualOfPixel(surface.residual, frame.weights, p);
+            // The penalty smooths, 8 bits round.
+            EXPECT_NEAR(glm::length(shown - seen.radianceOf(p)[i]), 0, 0.01) << i << " " << p;
+        }
+    }
+}
+
+TEST(ResidualEstimate, SameBytesForOneAndTwoThreadsAndAnyBlocks)
+{
+    Surface surface = residualSurface(32);
+    surface.residual = {};
+    const Observations whole = shownBy(surface);
+    const auto inBlocks = [&](size_t size) {
+        return [&, size](const std::function<void(const Observations&)>& visit) {
+            for (size_t first = 0; first < whole.pixels.size(); first += size) {
+                const size_t last = std::min(first + size, whole.pixels.size()), n = whole.lightCount;
+                const auto from = [&](const auto& values, size_t each) {
+                    return std::decay_t<decltype(values)>(values.begin() + static_cast<std::ptrdiff_t>(first * each),
+                                                          values.begin() + static_cast<std::ptrdiff_t>(last * each));
+                };
+                visit({n, from(whole.pixels, 1), from(whole.radiance, n), from(whole.saturated, n)});
+            }
+        };
+    };
+    const auto layerOf = [&](int threads, size_t block) {
+        ResidualReport report;
+        return estimateResidual(surface, {.choice = ResidualChoice::difference, .threads = threads}, inBlocks(block),
+                                report);
+    };
+    const ResidualLayer one = layerOf(1, 1024), two = layerOf(2, 1024), small = layerOf(2, 100);
+    EXPECT_EQ(one.codes, two.codes);
+    EXPECT_EQ(one.weights, two.weights);
+    EXPECT_EQ(one.codes, small.codes);
+}
+
+TEST(ResidualEstimate, BudgetsAreKept)
+{
+    Surface surface = residualSurface(16);
+    surface.residual = {};
+    const Observations seen = shownBy(surface);
+    const auto each = [&](const auto& visit) { visit(seen); };
+    ResidualReport report;
+    const size_t budget = 2 * (16 * 16 + 12 * sizeof(glm::vec3));
+    estimateResidual(surface, {.choice = ResidualChoice::difference, .budgetBytes = budget, .threads = 1}, each,
+                     report);
+    EXPECT_LE(report.bytes, budget);
+    EXPECT_LE(report.components, 2);
+    estimateResidual(surface, {.choice = ResidualChoice::difference, .budgetBytes = 10, .threads = 1}, each, report);
+    EXPECT_EQ(report.components, 0);
+}
+
+// Six lights on a line, or five anywhere, leave nothing to judge by.
+TEST(ResidualEstimate, LightsThatCannotTellAreNamed)
+{
+    Surface surface = residualSurface();
+    surface.residual = {};
+    surface.lights.resize(5);
+    const auto none = [](const auto&) {};
+    ResidualReport report;
+    EXPECT_TRUE(estimateResidual(surface, {.choice = ResidualChoice::automatic}, none, report).empty());
+    EXPECT_NE(report.whyNot.find("5 lights"), std::string::npos) << report.whyNot;
+    expectError([&] { estimateResidual(surface, {.choice = ResidualChoice::difference}, none, report); }, {"5 lights"});
+    surface.lights.clear();
+    for (int i = 0; i < 8; ++i) {
+        const glm::vec3 l(0.1f * static_cast<float>(i) - 0.4f, 0, 1);
+        surface.lights.push_back({std::to_string(i), {glm::normalize(l), {1, 1, 1}}});
+    }
+    estimateResidual(surface, {.choice = ResidualChoice::automatic}, none, report);
+    EXPECT_NE(report.whyNot.find("line"), std::string::npos) << report.whyNot;
+}
+
+// A photograph that is black, and two under the same light: what comes out stays finite and not brighter than all.
+TEST(ResidualEstimate, BlackAndEqualPhotographsStayBounded)
+{
+    Surface surface = residualSurface(16);
+    surface.residual = {};
+    surface.lights[3].light.direction = surface.lights[2].light.direction;
+    Observations seen = shownBy(surface);
+    for (size_t p = 0; p < seen.pixels.size(); ++p) {
+        seen.radiance[p * seen.lightCount + 5] = glm::vec3(0);
+    }
+    ResidualReport report;
+    surface.residual = estimateResidual(
+        surface, {.choice = ResidualChoice::difference, .threads = 1}, [&](const auto& visit) { visit(seen); }, report);
+    for (const glm::vec3& direction : {glm::vec3(0, 0, 1), glm::vec3(1, 0, 0), glm::normalize(glm::vec3(1, 1, -1))}) {
+        const ResidualFrame frame = residualFrame(surface.residual, std::vector<Light>{{direction, {1, 1, 1}}});
+        for (size_t p = 0; p < seen.pixels.size(); ++p) {
+            const glm::vec3 shown = residualOfPixel(surface.residual, frame.weights, p);
+            ASSERT_LT(glm::length(shown), 1) << p; // NaN is not less
+        }
+    }
+}
+
+} // namespace
+} // namespace nacre
