@@ -1,13 +1,16 @@
 #include <algorithm>
+#include <array>
 #include <memory>
 
 #include <fmt/format.h>
 
 #include "acquisition/capture/capture.h"
+#include "acquisition/capture/picture_files.h"
 #include "app/acquisition_summary.h"
 #include "app/commands.h"
 #include "engine/gpu/device_info.h"
 #include "engine/scene/error.h"
+#include "engine/scene/ptm_file.h"
 #include "engine/scene/surface.h"
 
 namespace nacre {
@@ -53,6 +56,11 @@ void printSurface(const std::filesystem::path& folder)
         const auto [lowest, highest] = std::minmax_element(surface.height.values.begin(), surface.height.values.end());
         fmt::print("height       {:.1f} to {:.1f} pixels\n", *lowest, *highest);
     }
+    if (!surface.residual.empty()) {
+        fmt::print("residual     {} components, {:.1f} KiB, trusts the BRDF by {:.0f} %, of {} lights\n",
+                   surface.residual.components, static_cast<double>(bytesOf(surface.residual)) / 1024,
+                   100 * surface.residual.trust, surface.residual.nodes.size());
+    }
     if (surface.lights.empty()) {
         fmt::print("lights       none\n");
         return;
@@ -61,6 +69,16 @@ void printSurface(const std::filesystem::path& folder)
     for (size_t i = 0; i < surface.lights.size(); ++i) {
         fmt::print("{:>12} {}  {}\n", fmt::format("captured:{}", i + 1), describe(surface.lights[i].light),
                    surface.lights[i].photograph);
+    }
+}
+
+void printPtm(const std::filesystem::path& file)
+{
+    const PtmFile ptm = loadPtm(file);
+    fmt::print("map          {}: {}, {}x{}\n", file.string(), ptmFormatName(ptm.format), ptm.width, ptm.height);
+    constexpr std::array<const char*, PtmFile::kTerms> kNames = {"x^2", "y^2", "xy", "x", "y", "1"};
+    for (size_t k = 0; k < PtmFile::kTerms; ++k) {
+        fmt::print("{:<12} (code - {}) * {:g}\n", kNames[k], ptm.bias[k], ptm.scale[k]);
     }
 }
 
@@ -92,6 +110,8 @@ void runInfo(const std::filesystem::path& path)
         printDevices();
     } else if (!std::filesystem::exists(path)) {
         throw Error(path, "does not exist", "a folder NAME.nacre or a folder of photographs");
+    } else if (lowerCase(path.extension().string()) == ".ptm") {
+        printPtm(path);
     } else if (std::filesystem::exists(path / "surface.json")) {
         printSurface(path);
     } else {
@@ -104,8 +124,8 @@ void runInfo(const std::filesystem::path& path)
 void addInfoCommand(CLI::App& app)
 {
     auto path = std::make_shared<std::filesystem::path>();
-    CLI::App* command = app.add_subcommand("info", "The Vulkan devices; what a surface or a capture holds");
-    command->add_option("PATH", *path, "Folder NAME.nacre or folder of photographs (default: the devices)");
+    CLI::App* command = app.add_subcommand("info", "The Vulkan devices; what a surface, a capture or a .ptm holds");
+    command->add_option("PATH", *path, "Folder NAME.nacre, folder of photographs or FILE.ptm (default: the devices)");
     command->footer("Example:\n  nacre info\n  nacre info horse.nacre");
     command->callback([path] { runInfo(*path); });
 }

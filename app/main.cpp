@@ -49,6 +49,7 @@ int runCommandLine(int argc, char** argv)
     nacre::addInfoCommand(app);
     nacre::addBrdfCommand(app);
     nacre::addCompareCommand(app);
+    nacre::addExportCommand(app);
     nacre::addEvaluateCommand(app);
     nacre::addChartCommand(app);
     nacre::addStressCommand(app);
