@@ -52,10 +52,15 @@ LightChoice lightChoiceOf(const std::optional<int>& given)
 void CalibrationArguments::addTo(CLI::App& command)
 {
     command.add_option("CAPTURE", folder, "Folder of photographs")->required();
-    command.add_option("--mirror-sphere", capture.mirrorSphere,
-                       "Folder of a mirror sphere's photographs: light directions");
-    command.add_option("--diffuse-sphere", capture.diffuseSphere,
-                       "Folder of a diffuse sphere's photographs: intensities");
+    command
+        .add_option("--mirror-sphere", capture.mirrorSphere,
+                    "Light directions: folder of a mirror sphere's photographs, or where it stands in the capture's "
+                    "own, with a mask or found")
+        ->option_text("DIR|in-picture:X,Y,W,H[,MASK]");
+    command
+        .add_option("--diffuse-sphere", capture.diffuseSphere,
+                    "Intensities: folder of a diffuse sphere's photographs, or where it stands in the capture's own")
+        ->option_text("DIR|in-picture:X,Y,W,H[,MASK]");
     command
         .add_option("--sphere-reflectance", sphereReflectance,
                     "The diffuse sphere's reflectance (one value or R,G,B in (0,1]): makes the BRDF absolute")

@@ -11,6 +11,7 @@
 #include "acquisition/capture/capture_offset.h"
 #include "acquisition/capture/capture_window.h"
 #include "acquisition/capture/picture_files.h"
+#include "acquisition/lights/sphere_in_picture.h"
 #include "engine/scene/error.h"
 
 namespace nacre {
@@ -50,16 +51,50 @@ LayoutContents readLayout(const fs::path& folder, const CaptureOptions& options)
     return *contents;
 }
 
+// A folder's photographs, or the capture's own. A sphere's mask beside the photographs is not the object's.
+SpherePhotographs sphereFrom(const char* option, const fs::path& specification, LayoutContents& contents)
+{
+    const std::optional<SphereInPicture> sphere = sphereInPicture(option, specification);
+    if (!sphere) {
+        return readSphereFolder(specification);
+    }
+    std::error_code ignored;
+    std::erase_if(contents.masks, [&](const fs::path& mask) { return fs::equivalent(mask, sphere->mask, ignored); });
+    return photographsOfSphere(*sphere, contents.capture);
+}
+
+// A mirror sphere that the user names counts for more than directions that a list of photographs came with; where
+// irradiances came with them, the lights were measured.
+void replaceDirections(Capture& capture)
+{
+    if (!capture.irradianceGiven) {
+        capture.lights.clear();
+        capture.lightsSource.clear();
+        capture.lightsOrder.clear();
+    }
+}
+
+void findSpheresInPicture(Capture& capture, const CaptureOptions& options)
+{
+    if (const auto sphere = sphereInPicture("--mirror-sphere", options.mirrorSphere)) {
+        capture.mirrorSphere->circle = circleInPicture(*sphere, capture);
+    }
+    if (const auto sphere = sphereInPicture("--diffuse-sphere", options.diffuseSphere)) {
+        capture.diffuseSphere->circle = circleInPicture(*sphere, capture);
+    }
+}
+
 void applyOptions(LayoutContents& contents, const CaptureOptions& options)
 {
     if (options.offset) {
         contents.offset = options.offset;
     }
     if (!options.mirrorSphere.empty()) {
-        contents.capture.mirrorSphere = readSphereFolder(options.mirrorSphere);
+        contents.capture.mirrorSphere = sphereFrom("--mirror-sphere", options.mirrorSphere, contents);
+        replaceDirections(contents.capture);
     }
     if (!options.diffuseSphere.empty()) {
-        contents.capture.diffuseSphere = readSphereFolder(options.diffuseSphere);
+        contents.capture.diffuseSphere = sphereFrom("--diffuse-sphere", options.diffuseSphere, contents);
     }
     if (!options.mask.empty()) {
         contents.masks = {options.mask};
@@ -333,6 +368,7 @@ Capture loadCapture(const fs::path& folder, const CaptureOptions& options)
     requireCounts(contents);
     examineHeaders(contents, options.transfer);
     Capture& capture = contents.capture;
+    findSpheresInPicture(capture, options);
     requireLabelSize(capture);
     requireSphereMask(capture.mirrorSphere);
     requireSphereMask(capture.diffuseSphere);

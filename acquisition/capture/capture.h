@@ -94,7 +94,7 @@ struct CaptureOptions {
     std::optional<TransferCurve> transfer;
     std::filesystem::path mask;
     std::filesystem::path smooth;       // picture that is white where normals are to be smoothed in
-    std::filesystem::path mirrorSphere; // folder of photographs and a mask
+    std::filesystem::path mirrorSphere; // folder of photographs and a mask, or in-picture:X,Y,W,H[,MASK]
     std::filesystem::path diffuseSphere;
     std::vector<std::string> skip; // names of photographs, with or without extension
     std::optional<OffsetChoice> offset;

@@ -1,5 +1,6 @@
-// Reflectance transformation imaging: one .lp file, a count and then "file x y z" a line, beside its photographs or in
-// a folder above them. The names often carry folders of another machine, so photographs are found by name.
+// Reflectance transformation imaging: one .lp file, a count and then "file x y z", or names alone, a line, beside its
+// photographs or in a folder above them. The names often carry folders of another machine, so photographs are found by
+// name.
 #include <algorithm>
 #include <set>
 
@@ -97,7 +98,7 @@ std::vector<fs::path> lpFilesIn(const fs::path& folder)
 
 LayoutContents readLp(const fs::path& lp, const fs::path& folder, const PicturePool& pool)
 {
-    const LightFile lights = loadLpFile(lp);
+    const LightFile lights = loadLpList(lp);
     LayoutContents contents;
     contents.capture.layout = CaptureLayout::rti;
     contents.listing = lp;
@@ -114,7 +115,7 @@ LayoutContents readLp(const fs::path& lp, const fs::path& folder, const PictureP
         contents.capture.photographs.push_back(photographOf(file));
     }
     contents.capture.lights = lights.lights;
-    contents.capture.lightsSource = lp.string();
+    contents.capture.lightsSource = lights.lights.empty() ? "" : lp.string();
     std::copy_if(pool[0].begin(), pool[0].end(), std::back_inserter(contents.masks),
                  [&](const fs::path& file) { return isNamedMask(file) && !listed.contains(file); });
     return contents;
@@ -132,7 +133,7 @@ std::optional<LayoutContents> readLpAbove(const fs::path& folder)
 {
     for (const fs::path& lp : lpFilesIn(fs::weakly_canonical(folder).parent_path())) {
         const PicturePool pool = picturesBelow(folder);
-        const LightFile lights = loadLpFile(lp);
+        const LightFile lights = loadLpList(lp);
         const bool itsOwn =
             std::any_of(lights.photographs.begin(), lights.photographs.end(), [&](const std::string& name) {
                 return !findPhotograph(pool, lp, folder, fs::path(withSlashes(name)).filename()).empty();

@@ -1,5 +1,6 @@
 #include "acquisition/lights/light_files.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -122,6 +123,21 @@ std::optional<LpLine> parseLpLine(std::string_view line)
 }
 
 } // namespace
+
+LightFile loadLpList(const fs::path& file)
+{
+    const std::vector<std::string> lines = loadTextLines(file);
+    if (lines.empty() || std::any_of(lines.begin(), lines.end(), [](const auto& l) { return parseLpLine(l); })) {
+        return loadLpFile(file);
+    }
+    const bool counted = parseNumber(lines[0]).has_value();
+    if (counted) {
+        requireAnnouncedCount(file, parseCount(file, lines[0]), lines.size() - 1);
+    }
+    LightFile result;
+    result.photographs.assign(lines.begin() + (counted ? 1 : 0), lines.end());
+    return result;
+}
 
 LightFile loadLpFile(const fs::path& file)
 {

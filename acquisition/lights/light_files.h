@@ -24,6 +24,9 @@ LightFile loadLightFile(const std::filesystem::path& file);
 // RTI: the count of lights, which may be missing, then "file x y z" a line; names may hold spaces.
 LightFile loadLpFile(const std::filesystem::path& file);
 
+// The same, or the names of photographs alone, one a line: without lights.
+LightFile loadLpList(const std::filesystem::path& file);
+
 // Three numbers a line, or three lines of equal length; three by three is three numbers a line. The count of lights
 // may stand before them. Directions are normalised, zero is refused.
 std::vector<glm::vec3> loadDirections(const std::filesystem::path& file);

@@ -20,9 +20,9 @@ constexpr double kOnCirclePixels = 1.5;
 // Share of border points that must lie on the circle, and of the circle that the mask must cover.
 constexpr double kDiscShare = 0.8;
 
-struct Point {
-    double x, y;
-};
+constexpr int kRefinements = 20;
+
+using Point = glm::dvec2;
 
 // Midpoints of the edges between inside and outside pixels.
 std::vector<Point> borderOf(std::span<const uint8_t> mask, int width, int height)
@@ -72,7 +72,7 @@ double medianAbsoluteResidual(const Circle& c, const std::vector<Point>& border)
 }
 
 // One Gauss-Newton step on the radial residuals, weighted by Tukey's biweight (c = 4.685 sigma).
-Circle refinedCircle(const Circle& c, const std::vector<Point>& border)
+Circle stepTowards(const Circle& c, const std::vector<Point>& border)
 {
     // Half a pixel is the border's own grain.
     const double cut = 4.685 * 1.4826 * std::max(medianAbsoluteResidual(c, border), 0.5);
@@ -111,6 +111,14 @@ double coveredShare(const Circle& c, std::span<const uint8_t> mask, int width, i
 
 } // namespace
 
+Circle refinedCircle(Circle circle, const std::vector<glm::dvec2>& border)
+{
+    for (int i = 0; i < kRefinements; ++i) {
+        circle = stepTowards(circle, border);
+    }
+    return circle;
+}
+
 Circle fitCircle(std::span<const uint8_t> mask, int width, int height, const std::filesystem::path& source)
 {
     const std::vector<Point> border = borderOf(mask, width, height);
@@ -118,10 +126,7 @@ Circle fitCircle(std::span<const uint8_t> mask, int width, int height, const std
     if (border.size() < 16) {
         throw Error(source, fmt::format("is no disc: its border has {} points", border.size()), expected);
     }
-    Circle circle = algebraicCircle(border);
-    for (int i = 0; i < 20; ++i) {
-        circle = refinedCircle(circle, border);
-    }
+    const Circle circle = refinedCircle(algebraicCircle(border), border);
     const double tolerance = std::max(kOnCirclePixels, kOnCircleShare * circle.radius);
     const auto onCircle = std::count_if(
         border.begin(), border.end(), [&](const Point& p) { return std::abs(radialResidual(circle, p)) <= tolerance; });

@@ -1,0 +1,15 @@
+#pragma once
+#include <optional>
+
+#include "acquisition/capture/capture.h"
+#include "engine/scene/image.h"
+
+namespace nacre {
+
+// The circle along most of which a picture of one channel changes, whatever is inside and outside: a sphere's outline.
+// Circles through three edge points are tried (Fischler and Bolles, Random sample consensus, 1981), the best is fitted
+// to the edges along its rays. Empty where none of at least a fifth of the picture's shorter side is wholly inside, or
+// less than 0.6 of it is seen.
+std::optional<Circle> findCircle(const Image& picture);
+
+} // namespace nacre
