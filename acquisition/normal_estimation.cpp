@@ -1,6 +1,7 @@
 #include "acquisition/normal_estimation.h"
 
 #include "acquisition/material_normals.h"
+#include "acquisition/normals/height_consistency.h"
 #include "acquisition/normals/pixel_sample.h"
 #include "acquisition/normals/smooth_fill.h"
 
@@ -84,6 +85,11 @@ void keepPrepared(const Capture& capture, const PreparedNormals& prepared, Norma
     result.report = prepared.report;
 }
 
+void addRemarks(const std::vector<std::string>& remarks, NormalReport& report)
+{
+    report.remarks.insert(report.remarks.end(), remarks.begin(), remarks.end());
+}
+
 // No normals, so no samples, from pixels that are to be smoothed over.
 void dropMarked(const Capture& capture, const Observations& block, NormalBlock& normals)
 {
@@ -115,7 +121,7 @@ CaptureWalk::CaptureWalk(const Capture& capture, const AcquireOptions& options, 
 void CaptureWalk::prepare(const Observations& first)
 {
     CaptureSample sample{samplePixels(given_, first, options_.normals.threads, options_.byteBudget),
-                         namesOf(given_.photographs), areIrradiancesKnown(given_), result_.rig.lights};
+                         namesOf(given_.photographs), areIrradiancesKnown(given_), result_.rig.lights, given_.width};
     prepared_ = preparePhotographs(sample, options_);
     sample_ = std::move(sample.seen);
     keepPrepared(given_, prepared_, result_);
@@ -132,6 +138,9 @@ void CaptureWalk::makeEstimators()
         return;
     }
     estimators_ = estimatorsByMaterial(sample_, *materials_, lights, options_.normals, result_.report);
+    if (estimators_.size() == 1) { // a material's estimator knows nothing of the others
+        addRemarks(methodWarnings(prepared_.checked, result_.report.method, estimators_.front()), result_.report);
+    }
 }
 
 NormalBlock CaptureWalk::normalsOf(const Observations& block)
@@ -204,6 +213,7 @@ void CaptureWalk::estimate(const Segmentation& materials, const Visitor& visit)
         storeNormals(block, normals, options_.keepVerdicts, result_);
         visit(block, normals);
     });
+    addRemarks(heightWarnings(result_.normals), result_.report);
     smoothMarked(given_, result_);
 }
 

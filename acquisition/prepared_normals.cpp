@@ -63,15 +63,25 @@ PreparedNormals preparePhotographs(CaptureSample& capture, const AcquireOptions&
     for (const std::string& warning : warningsOf(prepared.lights)) {
         prepared.report.remarks.push_back(warning);
     }
+    prepared.checked =
+        checkCapture(capture.seen, capture.width, prepared.lights, options.normals, prepared.report.remarks);
     prepared.report.lambertianResidual = lambertianResidual(capture.seen, prepared.lights);
     return prepared;
+}
+
+void completeNormals(const CaptureSample& capture, const AcquireOptions& options, PreparedNormals& prepared)
+{
+    prepared.estimator = makeNormalEstimator(intensitiesOf(capture.seen, prepared.lights), prepared.lights,
+                                             options.normals, prepared.report);
+    for (const std::string& warning : methodWarnings(prepared.checked, prepared.report.method, prepared.estimator)) {
+        prepared.report.remarks.push_back(warning);
+    }
 }
 
 PreparedNormals prepareNormals(CaptureSample capture, const AcquireOptions& options)
 {
     PreparedNormals prepared = preparePhotographs(capture, options);
-    prepared.estimator = makeNormalEstimator(intensitiesOf(capture.seen, prepared.lights), prepared.lights,
-                                             options.normals, prepared.report);
+    completeNormals(capture, options, prepared);
     return prepared;
 }
 

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "acquisition/acquire_options.h"
+#include "acquisition/normals/self_checks.h"
 
 namespace nacre {
 
@@ -12,12 +13,14 @@ struct CaptureSample {
     std::vector<std::string> photographs; // names, one per light
     bool irradiancesKnown = false;
     std::vector<Light> lights;
+    int width = 0; // of the grid that seen.pixels count in; 0 where it is not known
 };
 
 // How normals are to be estimated, once the photographs were compared with each other.
 struct PreparedNormals {
     std::vector<size_t> agreeing; // photographs that are used
     std::vector<Light> lights;    // of those, with irradiances corrected
+    CheckedSample checked;        // of those photographs
     NormalReport report;
     NormalEstimator estimator;
 };
@@ -25,7 +28,10 @@ struct PreparedNormals {
 // Leaves out photographs that cannot be reconciled with the others, the sample's too, and corrects irradiances by what
 // the rest say; the estimator is not made.
 PreparedNormals preparePhotographs(CaptureSample& capture, const AcquireOptions& options);
-// The steps from observations to normals, for observations that stand in no file as well; blocks hold the agreeing
+// Makes the estimator of the options' method for prepared photographs, the sample's being those that are left, and says
+// what is doubtful about it.
+void completeNormals(const CaptureSample& capture, const AcquireOptions& options, PreparedNormals& prepared);
+// Both steps from observations to normals, for observations that stand in no file as well; blocks hold the agreeing
 // photographs alone.
 PreparedNormals prepareNormals(CaptureSample capture, const AcquireOptions& options);
 NormalBlock estimateBlock(const NormalEstimator& estimator, const Observations& block,

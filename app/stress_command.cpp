@@ -1,4 +1,3 @@
-#include <algorithm>
 #include <filesystem>
 #include <memory>
 
@@ -10,6 +9,7 @@
 #include "engine/scene/error.h"
 #include "engine/scene/material_specification.h"
 #include "engine/scene/whole_file.h"
+#include "evaluation/stress_chart.h"
 #include "evaluation/stress_tables.h"
 
 namespace nacre {
@@ -76,6 +76,10 @@ void writeResults(const StressArguments& arguments, const std::vector<StressRow>
     }
     writeTextFile(output.temporary() / kTable, csvOf(rows));
     writeTextFile(output.temporary() / "stress.txt", tables);
+    writeTextFile(output.temporary() / "stress.html", stressPageOf(rows));
+    for (const StressChart& chart : stressChartsOf(rows)) {
+        writeTextFile(output.temporary() / chart.file, chart.svg);
+    }
     output.commit();
 }
 
@@ -92,12 +96,12 @@ void runStress(StressArguments& arguments)
     AcquireOptions options;
     options.normals.seed = arguments.seed;
     options.setThreads(arguments.capture.threads);
-    const std::vector<StressRow> rows = runSweeps(subject.clean.name, sweeps, methods, options, progressLine(quiet));
+    const std::vector<StressRow> rows = runSweeps(subject, sweeps, methods, options, progressLine(quiet));
     endProgressLine(quiet);
-    const std::string tables = tablesOf(rows) + "\n" + breakingPointsOf(rows);
+    const std::string tables = tablesOf(rows) + "\n" + breakingPointsOf(rows) + "\n" + countTableOf(rows);
     writeResults(arguments, rows, tables);
     if (!quiet) {
-        const auto silent = std::count_if(rows.begin(), rows.end(), isSilentFailure);
+        const auto silent = countsOf(rows).silent;
         fmt::print("{}: {} pixels, {} lights, seed {}\n\n{}\n{} of {} runs fail silently\nwrote {}\n",
                    subject.clean.name, subject.clean.seen.pixels.size(), subject.clean.lights.size(), arguments.seed,
                    tables, silent, rows.size(), arguments.output.string());
@@ -113,7 +117,10 @@ void addStressCommand(CLI::App& app)
         app.add_subcommand("stress", "Where the methods fail: errors as photographs and lights get worse");
     arguments->capture.addTo(*command);
     command->get_option("CAPTURE")->description("Folder of photographs with true normals, or `synthetic`");
-    command->add_option("-o,--output", arguments->output, "Folder to write: stress.csv and stress.txt")->required();
+    command
+        ->add_option("-o,--output", arguments->output,
+                     "Folder to write: stress.csv, stress.txt, stress.html and its charts")
+        ->required();
     command
         ->add_option(
             "--sweep", arguments->sweeps,

@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include <glm/common.hpp>
+#include <glm/exponential.hpp>
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
@@ -97,9 +98,66 @@ void misjudgeIrradiances(std::vector<Light>& lights, double deviation, uint64_t 
     }
 }
 
+void bringLightsNear(PhotographedObject& object, double widths)
+{
+    const size_t n = object.lights.size();
+    const std::vector<uint32_t>& pixels = object.seen.pixels;
+    glm::vec2 least(1e9f), most(-1e9f);
+    const auto placeOf = [&](uint32_t pixel) {
+        return glm::vec2(static_cast<float>(pixel % object.width), -static_cast<float>(pixel / object.width));
+    };
+    for (const uint32_t pixel : pixels) {
+        least = glm::min(least, placeOf(pixel));
+        most = glm::max(most, placeOf(pixel));
+    }
+    const glm::vec2 middle = 0.5f * (least + most);
+    const float distance = static_cast<float>(widths) * std::max(most.x - least.x, most.y - least.y);
+    for (size_t p = 0; p < pixels.size(); ++p) {
+        const glm::vec3 place(placeOf(pixels[p]) - middle, 0), normal = object.truth.normals[p];
+        for (size_t i = 0; i < n; ++i) {
+            const glm::vec3 far = object.lights[i].direction, towards = distance * far - place;
+            const float nDotL = glm::dot(normal, far), length = glm::length(towards);
+            if (nDotL > 0) {
+                object.seen.radiance[p * n + i] *= std::max(0.0f, glm::dot(normal, towards) / length) / nDotL *
+                                                   (distance * distance) / (length * length);
+            }
+        }
+    }
+}
+
+void bendTransfer(Observations& seen, double exponent)
+{
+    const float fullScale = valueQuantile(seen, 1), power = static_cast<float>(1 / exponent);
+    for (glm::vec3& radiance : seen.radiance) {
+        radiance = fullScale * glm::pow(glm::max(radiance, glm::vec3(0)) / fullScale, glm::vec3(power));
+    }
+}
+
+void misplaceSphere(std::vector<Light>& lights, double shareOfRadius)
+{
+    const glm::vec3 view(0, 0, 1);
+    const float shift = static_cast<float>(shareOfRadius) * std::sqrt(0.5f);
+    for (Light& light : lights) {
+        const glm::vec3 highlight = glm::normalize(light.direction + view);
+        const glm::vec2 read = glm::vec2(highlight) - shift;
+        const glm::vec3 normal(read, std::sqrt(std::max(0.0f, 1 - glm::dot(read, read))));
+        light.direction = glm::normalize(2 * glm::dot(normal, view) * normal - view);
+    }
+}
+
+void flipUpwards(std::vector<Light>& lights)
+{
+    for (Light& light : lights) {
+        light.direction.y = -light.direction.y;
+    }
+}
+
 PhotographedObject degraded(PhotographedObject object, const Degradation& degradation)
 {
     const uint64_t seed = degradation.seed;
+    if (degradation.nearWidths > 0) {
+        bringLightsNear(object, degradation.nearWidths);
+    }
     if (degradation.shadowShare > 0) {
         castShadows(object.seen, object.lights, degradation.shadowShare, seed);
     }
@@ -109,6 +167,9 @@ PhotographedObject degraded(PhotographedObject object, const Degradation& degrad
     if (degradation.overexposedShare > 0) {
         overexpose(object.seen, degradation.overexposedShare);
     }
+    if (degradation.transferExponent != 1) {
+        bendTransfer(object.seen, degradation.transferExponent);
+    }
     if (degradation.bits > 0) {
         quantise(object.seen, degradation.bits);
     }
@@ -117,6 +178,15 @@ PhotographedObject degraded(PhotographedObject object, const Degradation& degrad
     }
     if (degradation.irradianceError > 0) {
         misjudgeIrradiances(object.lights, degradation.irradianceError, seed);
+    }
+    if (degradation.sphereShift > 0) {
+        for (const Light& light : object.lights) {
+            object.shadingDirections.push_back(light.direction);
+        }
+        misplaceSphere(object.lights, degradation.sphereShift);
+    }
+    if (degradation.flipped) {
+        flipUpwards(object.lights);
     }
     return object;
 }

@@ -26,12 +26,30 @@ void turnDirections(std::vector<Light>& lights, double degrees, uint64_t seed);
 // Irradiances are off by a factor each, whose logarithm has this standard deviation; the same for all channels.
 void misjudgeIrradiances(std::vector<Light>& lights, double deviation, uint64_t seed);
 
+// The lights stand at so many object widths from its middle: what each pixel sees comes from a direction of its own and
+// falls with the square of the distance (the object's relief, and where highlights move to, are left out).
+void bringLightsNear(PhotographedObject& object, double widths);
+
+// The photographs' values, full scale at the largest, are their 1/exponent-th power: encoded, and taken for linear.
+// Below 1: decoded, though they were linear.
+void bendTransfer(Observations& seen, double exponent);
+
+// As read off a mirror sphere whose centre is off by a share of its radius, upwards and to the right.
+void misplaceSphere(std::vector<Light>& lights, double shareOfRadius);
+
+// y downwards where it should point upwards: a flipped green in the normals that follow.
+void flipUpwards(std::vector<Light>& lights);
+
 // All of them, in the order in which they happen; as it stands, nothing.
 struct Degradation {
+    double nearWidths = 0; // 0: distant
     double shadowShare = 0;
     double noise = 0;
     double overexposedShare = 0;
-    int bits = 0; // 0: values as they are
+    double transferExponent = 1;
+    int bits = 0;           // 0: values as they are
+    double sphereShift = 0; // of the mirror sphere; there is a diffuse one as well, which is as it should be
+    bool flipped = false;
     double directionErrorDegrees = 0;
     double irradianceError = 0;
     uint64_t seed = 1;

@@ -86,6 +86,62 @@ Sweep irradianceSweep(const StressSubject& subject)
     return degradationSweep(subject, "irradiance", "% off", &Degradation::irradianceError, {0, 2, 5, 10, 30}, 0.01);
 }
 
+// A setting per value, what it means told by `set`.
+template <class Set>
+Sweep setSweep(const StressSubject& subject, const char* name, const char* unit, const std::vector<double>& values,
+               const Set& set)
+{
+    Sweep sweep{name, unit, {}};
+    for (const double value : values) {
+        Degradation degradation = baseOf(subject);
+        set(degradation, value);
+        sweep.settings.push_back(
+            {fmt::format("{:g}", value), [&subject, degradation] { return degraded(subject.clean, degradation); }});
+    }
+    return sweep;
+}
+
+Sweep nearSweep(const StressSubject& subject)
+{
+    return degradationSweep(subject, "near", "object widths to the lights", &Degradation::nearWidths,
+                            {100, 20, 10, 5, 2.5, 1.2}, 1);
+}
+
+Sweep encodedSweep(const StressSubject& subject)
+{
+    return degradationSweep(subject, "encoded", "gamma left in the photographs", &Degradation::transferExponent,
+                            {1, 1.1, 1.2, 1.5, 1.8, 2.2}, 1);
+}
+
+Sweep decodedSweep(const StressSubject& subject)
+{
+    return setSweep(subject, "decoded", "gamma taken from linear photographs", {1, 1.1, 1.2, 1.5, 1.8, 2.2},
+                    [](Degradation& degradation, double gamma) { degradation.transferExponent = 1 / gamma; });
+}
+
+Sweep sphereSweep(const StressSubject& subject)
+{
+    return degradationSweep(subject, "sphere", "% of its radius, its centre off", &Degradation::sphereShift,
+                            {0, 1, 2, 5, 10, 20}, 0.01);
+}
+
+Sweep flippedSweep(const StressSubject& subject)
+{
+    return setSweep(subject, "flipped", "y of the lights, and so green", {0, 1},
+                    [](Degradation& degradation, double flipped) { degradation.flipped = flipped != 0; });
+}
+
+Sweep specularSweep(const StressSubject& subject)
+{
+    Sweep sweep{"specular", "% of the reflectance", {}};
+    for (const int percent : {0, 10, 25, 50, 75, 100}) {
+        sweep.settings.push_back(
+            {std::to_string(percent),
+             [&subject, percent] { return degraded(subject.reglazed(0.01 * percent), baseOf(subject)); }, true});
+    }
+    return sweep;
+}
+
 Sweep countSweep(const StressSubject& subject)
 {
     Sweep sweep{"lights", "well-spread lights", {}};
@@ -149,11 +205,22 @@ struct NamedSweep {
     bool needsOtherLights;
 };
 
-constexpr NamedSweep kSweeps[] = {{"noise", noiseSweep, false},           {"quantisation", quantisationSweep, false},
-                                  {"saturation", saturationSweep, false}, {"shadow", shadowSweep, false},
-                                  {"direction", directionSweep, false},   {"irradiance", irradianceSweep, false},
-                                  {"lights", countSweep, false},          {"missing", missingSweep, false},
-                                  {"layout", layoutSweep, true},          {"coplanar", coplanarSweep, true}};
+constexpr NamedSweep kSweeps[] = {{"noise", noiseSweep, false},
+                                  {"quantisation", quantisationSweep, false},
+                                  {"saturation", saturationSweep, false},
+                                  {"shadow", shadowSweep, false},
+                                  {"direction", directionSweep, false},
+                                  {"irradiance", irradianceSweep, false},
+                                  {"lights", countSweep, false},
+                                  {"missing", missingSweep, false},
+                                  {"near", nearSweep, false},
+                                  {"encoded", encodedSweep, false},
+                                  {"decoded", decodedSweep, false},
+                                  {"sphere", sphereSweep, false},
+                                  {"flipped", flippedSweep, false},
+                                  {"layout", layoutSweep, true},
+                                  {"coplanar", coplanarSweep, true},
+                                  {"specular", specularSweep, true}};
 
 } // namespace
 
@@ -167,6 +234,14 @@ StressSubject syntheticSubject(const SynthOptions& options)
         return photographedScene(relit);
     };
     subject.clean = subject.relit(spreadLights(static_cast<size_t>(options.lights), kCapDegrees));
+    subject.reglazed = [options, lights = subject.clean.lights](double share) {
+        SynthOptions glazed = options;
+        glazed.material = fmt::format("ggx:diffuse={0},{1},{2};specular={3};alpha=0.2", 0.4 * (1 - share),
+                                      0.3 * (1 - share), 0.2 * (1 - share), 0.5 * share);
+        SynthScene reglazed = makeSynthScene(glazed);
+        reglazed.lights = lights;
+        return photographedScene(reglazed);
+    };
     subject.noise = options.noise;
     subject.seed = options.seed;
     return subject;
@@ -174,7 +249,7 @@ StressSubject syntheticSubject(const SynthOptions& options)
 
 StressSubject captureSubject(PhotographedObject object, uint64_t seed)
 {
-    return {std::move(object), 0, seed, {}};
+    return {std::move(object), 0, seed, {}, {}};
 }
 
 std::vector<std::string> normalSweepNames()

@@ -14,6 +14,7 @@ struct Sweep {
     struct Setting {
         std::string value;
         std::function<PhotographedObject()> photographed;
+        bool isOtherMaterial = false; // a BRDF from it is told against its own photographs, not the subject's
     };
     std::string name;
     std::string unit; // of the settings' values
@@ -27,6 +28,8 @@ struct StressSubject {
     uint64_t seed = 1;
     // The same object under other lights, noiseless; empty where only its photographs are there.
     std::function<PhotographedObject(const std::vector<Light>&)> relit;
+    // The same under the same lights, of a gloss that has such a share of the reflectance; empty as above.
+    std::function<PhotographedObject(double specularShare)> reglazed;
 };
 
 // A solid that casts shadows on itself, under lights all over a cap of 55 degrees.

@@ -1,11 +1,12 @@
 #include "evaluation/photographed_object.h"
 
+#include <limits>
+
 #include <fmt/format.h>
 
 #include "acquisition/capture/capture_window.h"
 #include "acquisition/capture/matlab_normals.h"
 #include "acquisition/lights/well_spread_lights.h"
-#include "acquisition/normals/pixel_sample.h"
 #include "engine/scene/error.h"
 #include "engine/scene/measures.h"
 
@@ -23,6 +24,48 @@ NormalMap rowOf(const NormalMap& map, const std::vector<uint32_t>& pixels)
     return row;
 }
 
+constexpr size_t kMostPixels = 1000;
+
+Observations wholeObject(const Capture& capture, int threads)
+{
+    ObservationReader reader(capture, threads, std::numeric_limits<size_t>::max());
+    Observations whole;
+    reader.next(whole);
+    return whole;
+}
+
+// Every n-th row and column, renumbered as a grid of their own, with neighbours that a slope can be told from.
+void thinOut(PhotographedObject& object, NormalMap& truth)
+{
+    int step = 1;
+    while (object.seen.pixels.size() > kMostPixels * static_cast<size_t>(step * step)) {
+        ++step;
+    }
+    const int width = (object.width + step - 1) / step, height = (object.height + step - 1) / step;
+    const size_t n = object.seen.lightCount;
+    Observations thin;
+    NormalMap normals(width, height);
+    thin.lightCount = n;
+    for (size_t p = 0; p < object.seen.pixels.size(); ++p) {
+        const int x = static_cast<int>(object.seen.pixels[p]) % object.width,
+                  y = static_cast<int>(object.seen.pixels[p]) / object.width;
+        if (x % step == 0 && y % step == 0) {
+            const int pixel = y / step * width + x / step;
+            thin.pixels.push_back(static_cast<uint32_t>(pixel));
+            normals.normals[pixel] = truth.normals[object.seen.pixels[p]];
+            normals.confidence[pixel] = truth.confidence[object.seen.pixels[p]];
+            const auto radiance = object.seen.radianceOf(p);
+            const auto saturated = object.seen.saturatedOf(p);
+            thin.radiance.insert(thin.radiance.end(), radiance.begin(), radiance.end());
+            thin.saturated.insert(thin.saturated.end(), saturated.begin(), saturated.end());
+        }
+    }
+    object.seen = std::move(thin);
+    object.width = width;
+    object.height = height;
+    truth = std::move(normals);
+}
+
 } // namespace
 
 PhotographedObject photographedScene(const SynthScene& scene)
@@ -34,6 +77,8 @@ PhotographedObject photographedScene(const SynthScene& scene)
     const size_t n = scene.lights.size();
     object.seen.lightCount = n;
     object.seen.pixels = scene.view.seen;
+    object.width = scene.view.normals.width;
+    object.height = scene.view.normals.height;
     object.seen.radiance.resize(object.seen.pixels.size() * n);
     object.seen.saturated.assign(object.seen.radiance.size(), 0);
     for (size_t i = 0; i < n; ++i) {
@@ -59,11 +104,11 @@ PhotographedObject photographedCapture(const Capture& capture, const Calibration
     for (const Photograph& photograph : capture.photographs) {
         object.photographs.push_back(photograph.name);
     }
-    ObservationReader reader(capture, calibration.threads);
-    Observations first;
-    reader.next(first);
-    object.seen = samplePixels(capture, first, calibration.threads, ObservationReader::kDefaultByteBudget);
-    const NormalMap truth = windowedNormals(loadTrueNormals(capture.truthNormals), capture, capture.truthNormals);
+    object.seen = wholeObject(capture, calibration.threads);
+    object.width = capture.width;
+    object.height = capture.height;
+    NormalMap truth = windowedNormals(loadTrueNormals(capture.truthNormals), capture, capture.truthNormals);
+    thinOut(object, truth);
     object.truth = rowOf(truth, object.seen.pixels);
     return object;
 }

@@ -11,6 +11,7 @@
 
 #include "acquisition/capture/merged_photograph.h"
 #include "acquisition/lights/mirror_sphere.h"
+#include "acquisition/lights/sphere_agreement.h"
 #include "engine/scene/error.h"
 #include "engine/scene/measures.h"
 #include "engine/scene/parallel_for.h"
@@ -23,11 +24,13 @@ namespace {
 // Beyond it, an error of 1 % in the photographs can turn the normal by more than it is long.
 constexpr double kWorstCondition = 100;
 constexpr double kLargestTurn = 2; // degrees
-// Of photographs against the model, and what it may make of the normals in degrees.
+// Of photographs against the model, and what it may make of the normals in degrees: as much as gloss does to methods
+// that do not know it.
 constexpr double kUsualError = 0.01;
-constexpr double kLargestError = 10;
-// Three observations explain any three values; one false value shows among five, and is named where four others stay.
-constexpr size_t kFewestForOutliers = 5;
+constexpr double kLargestError = 4;
+// Three observations explain any three values; of the four that seven lights leave beside them, a shadow and a
+// highlight are no majority.
+constexpr size_t kFewestForOutliers = 7;
 
 Circle outlineOf(const SpherePhotographs& sphere)
 {
@@ -78,9 +81,15 @@ void addIrradiances(const Capture& capture, const CalibrationOptions& options, R
     });
     shareOffset(readings);
     rig.shadingOffset = readings.front().offset;
+    std::vector<glm::vec3> known, shading;
     for (size_t i = 0; i < readings.size(); ++i) {
         rig.shadingDisagreement.push_back(
             static_cast<float>(degreesBetween(readings[i].shadingDirection, rig.lights[i].direction)));
+        known.push_back(rig.lights[i].direction);
+        shading.push_back(readings[i].shadingDirection);
+    }
+    if (const auto warning = sphereWarning(known, shading)) {
+        rig.warnings.push_back(*warning);
     }
     if (!capture.irradianceGiven) {
         for (size_t i = 0; i < readings.size(); ++i) {
@@ -126,9 +135,10 @@ std::vector<std::string> warningsOf(const std::vector<Light>& lights)
     std::vector<std::string> warnings;
     const double condition = conditionOf(lights), degrees = glm::degrees(std::atan(kUsualError * condition));
     if (degrees >= kLargestError) {
-        warnings.push_back(fmt::format("warning: the lights lie nearly in one plane (condition {:.0f}): an error of "
-                                       "{:.0f} % in the photographs turns normals by up to {:.0f} degrees",
-                                       condition, 100 * kUsualError, degrees));
+        warnings.push_back(
+            fmt::format("warning: the lights lie nearly in one plane or close together (condition {:.0f}): an error of "
+                        "{:.0f} % in the photographs turns normals by up to {:.0f} degrees",
+                        condition, 100 * kUsualError, degrees));
     }
     if (lights.size() < kFewestForOutliers) {
         warnings.push_back(fmt::format("warning: with {} lights shadows and highlights cannot be told from shading; "

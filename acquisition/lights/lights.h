@@ -41,8 +41,8 @@ double requireSpanningLights(const std::vector<Light>& lights, const std::filesy
 double conditionOf(const std::vector<Light>& lights);
 
 // "warning: ..." for each reason why normals from such lights are not to be trusted, whatever their residuals say:
-// lights so nearly in one plane that an error of 1 % in the photographs, which few are below, can turn normals by 10
-// degrees; too few to tell a shadow or a highlight from the surface's own shading.
+// lights so nearly in one plane or so close together that an error of 1 % in the photographs, which few are below, can
+// turn normals by 4 degrees; too few to tell a shadow or a highlight from the surface's own shading.
 std::vector<std::string> warningsOf(const std::vector<Light>& lights);
 
 } // namespace nacre

@@ -53,7 +53,7 @@ std::vector<size_t> chosenLights(const std::vector<Light>& lights, const LightCh
     std::vector<glm::vec3> directions;
     for (size_t i = 0; i < lights.size(); ++i) {
         directions.push_back(lights[i].direction);
-        if (!isHeldOutOfEvery(i, choice.heldOutEvery)) {
+        if (!isHeldOutOfEvery(i, choice.heldOutEvery, choice.heldOutFirst)) {
             candidates.push_back(i);
         }
     }

@@ -15,13 +15,14 @@ constexpr int kFewestLightsGiven = 3; // as many as a normal and its albedo have
 struct LightChoice {
     size_t given = 0;        // that many well-spread ones; 0: all that are not held out
     size_t heldOutEvery = 0; // 7: photographs 0, 7, 14, ... are kept back for a judgement; 0: none
+    size_t heldOutFirst = 0; // 2: photographs 2, 9, 16, ...
 };
 
 // Whether photograph `index`, counted from 0, is one of every `every`: the first is, so that of 96 every seventh makes
 // 14, and 82 stay.
-constexpr bool isHeldOutOfEvery(size_t index, size_t every)
+constexpr bool isHeldOutOfEvery(size_t index, size_t every, size_t first = 0)
 {
-    return every > 0 && index % every == 0;
+    return every > 0 && index % every == first;
 }
 
 // `count` of the candidates (indices of `directions`), ascending: the first candidate, then always the one whose

@@ -163,6 +163,65 @@ TEST(Degradations, ShadowsBlockLightsThatStandSideBySide)
     EXPECT_GT(middles.size(), 5u) << "every pixel has its own";
 }
 
+TEST(Degradations, NearLightsFallWithTheSquareOfTheDistance)
+{
+    PhotographedObject object;
+    object.width = 5;
+    object.height = 1;
+    object.lights.resize(1);
+    object.lights[0].direction = {0, 0, 1};
+    object.truth = NormalMap(3, 1);
+    for (const uint32_t pixel : {0u, 2u, 4u}) {
+        object.seen.pixels.push_back(pixel);
+        object.seen.radiance.emplace_back(1);
+        object.seen.saturated.push_back(0);
+        object.truth.normals[pixel / 2] = {0, 0, 1};
+    }
+    object.seen.lightCount = 1;
+    bringLightsNear(object, 2);
+    EXPECT_NEAR(object.seen.radiance[1].x, 1, 1e-6) << "the middle";
+    // Half a width beside the middle, two widths away: the cube of the cosine, two of the distance and one of n.l.
+    const float cosine = 2 / std::sqrt(4.25f);
+    EXPECT_NEAR(object.seen.radiance[0].x, cosine * cosine * cosine, 1e-6);
+    EXPECT_NEAR(object.seen.radiance[2].x, cosine * cosine * cosine, 1e-6);
+}
+
+TEST(Degradations, TransferCurvesBendAndKeepTheEnds)
+{
+    Observations seen = scatteredObject(100, 5).seen;
+    const Observations before = seen;
+    const float fullScale = valueQuantile(seen, 1);
+    bendTransfer(seen, 2);
+    for (size_t k = 0; k < seen.radiance.size(); ++k) {
+        EXPECT_NEAR(seen.radiance[k].x, std::sqrt(before.radiance[k].x / fullScale) * fullScale, 1e-5);
+    }
+}
+
+TEST(Degradations, AMisplacedSphereTurnsAllLightsAlike)
+{
+    std::vector<Light> lights = spreadLights(30, 40);
+    const std::vector<Light> before = lights;
+    misplaceSphere(lights, 0.02);
+    for (size_t i = 0; i < lights.size(); ++i) {
+        const glm::vec3 moved = lights[i].direction - before[i].direction;
+        EXPECT_LT(moved.x, 0);
+        EXPECT_LT(moved.y, 0);
+        // Twice the shift of the highlight's normal, over its cosine: 2.3 degrees in the middle, at 40 degrees 2.15
+        // to 2.6.
+        const double degrees = degreesBetween(lights[i].direction, before[i].direction);
+        EXPECT_GT(degrees, 2.15);
+        EXPECT_LT(degrees, 2.7);
+    }
+}
+
+TEST(Degradations, FlippedLightsPointDownwards)
+{
+    std::vector<Light> lights = spreadLights(4, 40);
+    const glm::vec3 before = lights[2].direction;
+    flipUpwards(lights);
+    EXPECT_EQ(lights[2].direction, glm::vec3(before.x, -before.y, before.z));
+}
+
 TEST(Degradations, AreTheSameForTheSameSeedAlone)
 {
     const PhotographedObject object = scatteredObject(50, 12);

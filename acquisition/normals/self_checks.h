@@ -1,0 +1,29 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "acquisition/capture/observations.h"
+#include "acquisition/normals/normals.h"
+
+namespace nacre {
+
+// A few hundred pixels of an object, by which a capture is checked against itself.
+struct CheckedSample {
+    Observations seen;
+    Intensities intensities;
+    std::vector<Light> lights;
+    NormalBlock consensus;
+    double scatter = 0; // from Lambert's law, see matte_scatter.h
+    double instability = 0;
+};
+
+// `width`: of the grid that the sample's pixels count in; 0 where it is not known. Each warning ("warning: ...") names
+// what is likely wrong with the photographs or lights, and what to do; docs/stability.md lists them.
+CheckedSample checkCapture(const Observations& sample, int width, const std::vector<Light>& lights,
+                           const NormalOptions& options, std::vector<std::string>& warnings);
+
+// What is to be said of a method's normals, once it is known which method was taken.
+std::vector<std::string> methodWarnings(const CheckedSample& sample, NormalMethod method,
+                                        const NormalEstimator& estimator);
+
+} // namespace nacre

@@ -1,0 +1,23 @@
+#pragma once
+#include <optional>
+
+#include "acquisition/capture/observations.h"
+#include "acquisition/normals/normals.h"
+
+namespace nacre {
+
+// A defect of the whole capture that, once undone, lets Lambert's law explain the matte observations far better.
+struct CaptureDefect {
+    enum class Kind { encoded, decoded, nearLights };
+    Kind kind = Kind::encoded;
+    double size = 0;    // the exponent that undoes it; the distance of the lights in widths of the object
+    double scatter = 0; // that is left, see matte_scatter.h
+};
+
+// Tries transfer curves (powers of the photographs' values) and finite distances of the lights, on a few hundred pixels
+// of the object, and answers what explains best, if that is far better than taking the capture as it is. `width`: of
+// the grid that seen.pixels count in; 0 where it is not known. `scatter`: of the capture as it is.
+std::optional<CaptureDefect> findDefect(const Observations& seen, int width, const std::vector<Light>& lights,
+                                        const NormalOptions& options, double scatter);
+
+} // namespace nacre

@@ -1,0 +1,77 @@
+#include "acquisition/normals/height_consistency.h"
+
+#include <cmath>
+
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+
+#include "shared/glsl.h"
+
+namespace nacre {
+namespace {
+
+constexpr int kSize = 80;
+
+// Hills of three wavelengths, slopes up to about 1.
+NormalMap hills()
+{
+    NormalMap map(kSize, kSize);
+    for (int y = 0; y < kSize; ++y) {
+        for (int x = 0; x < kSize; ++x) {
+            const float u = 0.11f * static_cast<float>(x), v = -0.08f * static_cast<float>(y);
+            const float p = 0.5f * std::cos(u) + 0.4f * std::cos(u + 2 * v),
+                        q = -0.5f * std::sin(v) + 0.8f * std::cos(u + 2 * v);
+            map.normals[map.index(x, y)] = glm::normalize(glm::vec3(-0.11f * 8 * p, -0.08f * 8 * q, 1));
+            map.confidence[map.index(x, y)] = 1;
+        }
+    }
+    return map;
+}
+
+NormalMap changed(NormalMap map, const glm::mat3& change)
+{
+    for (glm::vec3& normal : map.normals) {
+        normal = change * normal;
+    }
+    return map;
+}
+
+glm::mat3 turnAboutX(float degrees)
+{
+    const float c = std::cos(degrees * kPi / 180), s = std::sin(degrees * kPi / 180);
+    return glm::mat3(1, 0, 0, 0, c, s, 0, -s, c);
+}
+
+TEST(HeightConsistency, NormalsOfAHeightAreLeftInPeace)
+{
+    const HeightConsistency found = heightConsistencyOf(hills());
+    EXPECT_GT(found.places, 1000u);
+    EXPECT_LT(found.flippedRatio, 0.3);
+    // Differences over two pixels of hills 57 pixels long are off by half a percent.
+    EXPECT_LT(glm::length(found.turnDegrees), 1);
+    EXPECT_TRUE(heightWarnings(hills()).empty());
+}
+
+TEST(HeightConsistency, YUpsideDownIsSaid)
+{
+    const NormalMap map = changed(hills(), glm::mat3(1, 0, 0, 0, -1, 0, 0, 0, 1));
+    ASSERT_EQ(heightWarnings(map).size(), 1u);
+    EXPECT_NE(heightWarnings(map).front().find("y points downwards"), std::string::npos);
+}
+
+TEST(HeightConsistency, ATurnOfAllNormalsIsFoundAndSaid)
+{
+    const NormalMap map = changed(hills(), turnAboutX(8));
+    EXPECT_NEAR(glm::length(heightConsistencyOf(map).turnDegrees), 8, 1);
+    ASSERT_EQ(heightWarnings(map).size(), 1u);
+    EXPECT_NE(heightWarnings(map).front().find("turned by 8 degrees"), std::string::npos)
+        << heightWarnings(map).front();
+}
+
+TEST(HeightConsistency, FewPixelsSayNothing)
+{
+    EXPECT_TRUE(heightWarnings(NormalMap(10, 10)).empty());
+}
+
+} // namespace
+} // namespace nacre

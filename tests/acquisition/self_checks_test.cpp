@@ -1,0 +1,113 @@
+#include "acquisition/normals/self_checks.h"
+
+#include <algorithm>
+
+#include <gtest/gtest.h>
+
+#include "acquisition/lights/sphere_agreement.h"
+#include "evaluation/degradations.h"
+#include "evaluation/normal_sweeps.h"
+
+namespace nacre {
+namespace {
+
+// Gloss, shadows and a little noise, as the photographs of an ordinary object.
+const StressSubject& subject()
+{
+    static const StressSubject made = [] {
+        SynthOptions options;
+        options.width = options.height = 24;
+        options.lights = 24;
+        options.material = "ggx:diffuse=0.4,0.3,0.2;specular=0.05;alpha=0.2";
+        return syntheticSubject(options);
+    }();
+    return made;
+}
+
+std::vector<std::string> warningsAfter(const Degradation& degradation)
+{
+    const PhotographedObject object = degraded(subject().clean, degradation);
+    std::vector<std::string> warnings;
+    checkCapture(object.seen, object.width, object.lights, {}, warnings);
+    return warnings;
+}
+
+bool isSaid(const std::vector<std::string>& warnings, const std::string& words)
+{
+    return std::any_of(warnings.begin(), warnings.end(),
+                       [&](const std::string& warning) { return warning.find(words) != std::string::npos; });
+}
+
+TEST(SelfChecks, AGoodCaptureHearsNothing)
+{
+    Degradation little;
+    little.noise = 0.005;
+    little.bits = 8;
+    little.directionErrorDegrees = 0.5;
+    little.irradianceError = 0.01;
+    const std::vector<std::string> warnings = warningsAfter(little);
+    EXPECT_TRUE(warnings.empty()) << warnings.front();
+}
+
+TEST(SelfChecks, EachDefectIsNamed)
+{
+    const auto expectSaid = [](auto member, double value, const std::string& words) {
+        Degradation degradation;
+        degradation.noise = 0.002;
+        degradation.*member = value;
+        const std::vector<std::string> warnings = warningsAfter(degradation);
+        EXPECT_TRUE(isSaid(warnings, words)) << words << ", but: " << (warnings.empty() ? "" : warnings.front());
+    };
+    expectSaid(&Degradation::transferExponent, 2.2, "a transfer curve is left in them");
+    expectSaid(&Degradation::transferExponent, 1 / 2.2, "was taken from them that they did not have");
+    expectSaid(&Degradation::nearWidths, 4, "the lights are not distant");
+    expectSaid(&Degradation::directionErrorDegrees, 6, "contradict the directions");
+    expectSaid(&Degradation::overexposedShare, 0.35, "clipped");
+    expectSaid(&Degradation::shadowShare, 0.3, "is dark");
+}
+
+TEST(SelfChecks, LambertsMethodsAreDoubtedWhereGlossOrNoiseRules)
+{
+    Degradation noisy;
+    noisy.noise = 0.1;
+    const PhotographedObject object = degraded(subject().clean, noisy);
+    std::vector<std::string> warnings;
+    const CheckedSample sample = checkCapture(object.seen, object.width, object.lights, {}, warnings);
+    const std::vector<std::string> said =
+        methodWarnings(sample, NormalMethod::leastSquares, makeLeastSquaresEstimator(object.lights, {}));
+    EXPECT_TRUE(isSaid(said, "Lambert's law")) << said.size();
+}
+
+TEST(SelfChecks, TooFewPixelsOrLightsAreNotJudged)
+{
+    std::vector<std::string> warnings;
+    const CheckedSample sample = checkCapture(Observations{}, 0, subject().clean.lights, {}, warnings);
+    EXPECT_TRUE(warnings.empty());
+    EXPECT_TRUE(methodWarnings(sample, NormalMethod::leastSquares, {}).empty());
+}
+
+TEST(SphereAgreement, AMisplacedMirrorSphereIsSaidAndScatterIsNot)
+{
+    std::vector<glm::vec3> truth;
+    std::vector<Light> shifted = subject().clean.lights, scattered = subject().clean.lights;
+    for (const Light& light : shifted) {
+        truth.push_back(light.direction);
+    }
+    misplaceSphere(shifted, 0.05);
+    turnDirections(scattered, 3, 1);
+    const auto directions = [](const std::vector<Light>& lights) {
+        std::vector<glm::vec3> result;
+        for (const Light& light : lights) {
+            result.push_back(light.direction);
+        }
+        return result;
+    };
+    // Twice 5 % of the radius in the middle of the sphere, up to a quarter more at 55 degrees.
+    EXPECT_NEAR(commonTurn(directions(shifted), truth).degrees, 6.2, 0.5);
+    EXPECT_TRUE(sphereWarning(directions(shifted), truth).has_value());
+    EXPECT_FALSE(sphereWarning(directions(scattered), truth).has_value());
+    EXPECT_FALSE(sphereWarning(directions(shifted), {}).has_value()) << "no diffuse sphere";
+}
+
+} // namespace
+} // namespace nacre
