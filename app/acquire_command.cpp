@@ -1,9 +1,12 @@
+#include <chrono>
 #include <memory>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "app/acquire_report.h"
 #include "app/acquisition_summary.h"
+#include "app/budget_arguments.h"
 #include "app/capture_arguments.h"
 #include "app/commands.h"
 #include "app/debug_pictures.h"
@@ -11,6 +14,7 @@
 #include "app/interpolation_arguments.h"
 #include "app/label_pictures.h"
 #include "app/progress_line.h"
+#include "app/residual_arguments.h"
 #include "app/verdict_pictures.h"
 #include "engine/scene/error.h"
 #include "engine/scene/whole_file.h"
@@ -27,6 +31,9 @@ struct AcquireArguments {
     std::vector<int> tableSize;
     InterpolationArguments interpolation;
     LadderArguments ladder;
+    ResidualArguments residual;
+    BudgetArguments budget;
+    std::filesystem::path report;
     std::string range = "captured";
 };
 
@@ -36,6 +43,7 @@ AcquireOptions optionsOf(const AcquireArguments& arguments)
     options.interpolation = arguments.interpolation.options(options.interpolation.threads);
     options.segment = segmentOptionsFrom(arguments.segment);
     options.ladder = arguments.ladder.options(options.interpolation.threads);
+    options.residual = arguments.residual.options(options.ladder);
     options.bake.range = tableRangeFromName(arguments.range);
     if (arguments.coordinates != "half-difference" && arguments.coordinates != "natural") {
         throw Error("", fmt::format("--coordinates {} are not known", arguments.coordinates),
@@ -64,22 +72,66 @@ void checkOutputs(const AcquireArguments& arguments)
     requireDestination(arguments.output, arguments.common.force);
     requireSummaryDestination(arguments.common.json);
     requireFolderDestination(arguments.common.debugFolder);
+    requireReportDestination(arguments.report, arguments.common.force);
+}
+
+// The surface that the options give, or the best of what is possible in the time.
+BudgetResult acquireAsAsked(const Capture& capture, const AcquireOptions& options, std::optional<double> budgetSeconds,
+                            const std::function<double()>& elapsed, const Progress& progress)
+{
+    if (budgetSeconds) {
+        return acquireWithin(capture, options, candidateOrder(), *budgetSeconds, elapsed, progress);
+    }
+    BudgetResult result;
+    result.options = options;
+    result.acquisition = acquire(capture, options, progress);
+    return result;
+}
+
+// The summary and the pictures that were asked for.
+void writeExtras(const AcquireArguments& arguments, const Capture& given, const BudgetResult& found,
+                 std::optional<double> budgetSeconds)
+{
+    const CaptureArguments& common = arguments.common;
+    const Acquisition& result = found.acquisition;
+    if (!common.json.empty()) {
+        nlohmann::json summary = summaryOf(given, result);
+        if (budgetSeconds) {
+            summary["budget"] = documentOf(found, *budgetSeconds);
+        }
+        writeTextFile(common.json, summary.dump(2) + "\n");
+    }
+    if (!common.debugFolder.empty()) {
+        makeDebugFolder(common.debugFolder);
+        saveNormalPictures(common.debugFolder, result.surface.normals);
+        saveVerdictPictures(common.debugFolder, given, result.estimate);
+        saveLabelPicture(common.debugFolder, result.segmentation, given.width, given.height);
+        saveMaterialPictures(common.debugFolder, result.surface.materials);
+    }
 }
 
 void runAcquire(AcquireArguments& arguments)
 {
     const CaptureArguments& common = arguments.common;
+    const auto start = std::chrono::steady_clock::now();
+    const auto elapsed = [&] {
+        return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    };
     const AcquireOptions options = optionsOf(arguments);
+    const std::optional<double> budgetSeconds = arguments.budget.seconds();
     checkOutputs(arguments);
     const Capture capture = arguments.common.load();
     if (!common.quiet) {
         fmt::print("{}", describe(capture));
     }
-    const Acquisition result = acquire(capture, options, progressLine(common.quiet));
+    const Progress progress = progressLine(common.quiet);
+    const BudgetResult found = acquireAsAsked(capture, options, budgetSeconds, elapsed, progress);
+    const Acquisition& result = found.acquisition;
     endProgressLine(common.quiet);
     saveSurface(arguments.output, result.surface, common.force);
     const Capture given = selectPhotographs(capture, result.estimate.given);
     if (!common.quiet) {
+        fmt::print("{}", budgetSeconds ? describe(found, *budgetSeconds) : "");
         fmt::print("{}{}{}{}{}wrote        {}\n", describeGiven(capture, result.estimate),
                    describe(given, result.estimate.rig), describeNormals(given, result.estimate), describeBrdf(result),
                    describe(result.estimate.times), arguments.output.string());
@@ -87,15 +139,11 @@ void runAcquire(AcquireArguments& arguments)
     if (!common.compareRig.empty() && !common.quiet) {
         fmt::print("{}", describeDisagreement(capture, result.estimate.given, result.estimate.rig, common.compareRig));
     }
-    if (!common.json.empty()) {
-        writeTextFile(common.json, summaryOf(given, result).dump(2) + "\n");
-    }
-    if (!common.debugFolder.empty()) {
-        makeDebugFolder(common.debugFolder);
-        saveNormalPictures(common.debugFolder, result.surface.normals);
-        saveVerdictPictures(common.debugFolder, given, result.estimate);
-        saveLabelPicture(common.debugFolder, result.segmentation, capture.width, capture.height);
-        saveMaterialPictures(common.debugFolder, result.surface.materials);
+    writeExtras(arguments, given, found, budgetSeconds);
+    if (!arguments.report.empty()) {
+        const CaptureReview review = reviewCapture(capture, found.options, result, progress);
+        endProgressLine(common.quiet);
+        saveReport(arguments.report, reportOf({capture, result, review, budgetSeconds ? &found : nullptr}));
     }
 }
 
@@ -120,10 +168,15 @@ void addAcquireCommand(CLI::App& app)
                      "extrapolated and marked")
         ->capture_default_str();
     arguments->ladder.addTo(*command);
+    arguments->residual.addTo(*command);
     command->add_option("--coordinates", arguments->coordinates, "Of the table: half-difference or natural")
         ->capture_default_str();
     command->add_option("--table-size", arguments->tableSize, "X,Y,Z texels (default: from the captured range)")
         ->delimiter(',');
+    arguments->budget.addTo(*command);
+    command->add_option("--report", arguments->report,
+                        "Write report.html into this folder, a page for people; another acquisition holds photographs "
+                        "back for it");
     command->footer("Example:\n  nacre acquire horse --mirror-sphere chrome --diffuse-sphere gray -o horse.nacre");
     command->callback([arguments] { runAcquire(*arguments); });
 }

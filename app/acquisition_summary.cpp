@@ -11,6 +11,7 @@
 #include "acquisition/capture/capture_layouts.h"
 #include "acquisition/lights/light_files.h"
 #include "app/ladder_report.h"
+#include "app/residual_arguments.h"
 #include "engine/scene/error.h"
 #include "engine/scene/measures.h"
 
@@ -207,9 +208,9 @@ std::string describeBrdf(const Acquisition& acquisition)
     return describeMaterials(acquisition) +
            fmt::format("observations {} used; left out: {} in shadow or grazing, {} saturated, {} of pixels without a "
                        "normal, {} to thin them out\n"
-                       "{}scale        {}\n",
+                       "{}{}scale        {}\n",
                        counts.used, counts.shadowed, counts.saturated, counts.withoutNormal, counts.thinned,
-                       describeTables(acquisition),
+                       describeTables(acquisition), describe(acquisition.residual),
                        acquisition.surface.scale == RadianceScale::absolute ? "absolute (1/sr)" : "relative");
 }
 
@@ -316,6 +317,7 @@ Json summaryOf(const Capture& capture, const Acquisition& acquisition)
                                      {"tableSize", {own.size.x, own.size.y, own.size.z}},
                                      {"tableCoveredShare", coveredShare(own)}});
     }
+    json["residual"] = documentOf(acquisition.residual);
     json["labels"] = acquisition.segmentation.source;
     json["scale"] = acquisition.surface.scale == RadianceScale::absolute ? "absolute" : "relative";
     return json;

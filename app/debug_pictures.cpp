@@ -1,11 +1,12 @@
 #include "app/debug_pictures.h"
 
 #include <algorithm>
+#include <memory>
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 
-#include "engine/scene/ball.h"
+#include "app/material_ball.h"
 #include "engine/scene/error.h"
 
 namespace nacre {
@@ -36,16 +37,17 @@ void savePicturesOf(const BrdfTable& table, const fs::path& folder, const std::s
     saveImage(folder / ("brdf" + suffix), displayImage(brdf, automaticExposure(brdf)), PixelType::uint8);
     const Image coverage = sliceSheet(table, [&](size_t texel) { return glm::vec3(table.confidence[texel]); });
     saveImage(folder / ("brdf_coverage" + suffix), coverage, PixelType::uint8);
-    const Light light{glm::normalize(glm::vec3(-0.4f, 0.5f, 0.77f))};
-    Image ball = makeBall(table, std::span(&light, 1), kBallSize).radiance;
-    const NormalMap disc = sphereNormalMap(kBallSize);
-    for (size_t i = 0; i < ball.values.size(); ++i) {
-        ball.values[i] *= disc.confidence[i / 3]; // beyond the rim a ball repeats it, for filtering
-    }
-    saveImage(folder / ("ball" + suffix), displayImage(ball, automaticExposure(ball)), PixelType::uint8);
+    saveImage(folder / ("ball" + suffix), ballPicture(table), PixelType::uint8);
 }
 
 } // namespace
+
+Image ballPicture(const BrdfTable& table)
+{
+    const Light light{glm::normalize(glm::vec3(-0.4f, 0.5f, 0.77f))};
+    const Image ball = materialBall(std::make_shared<const BrdfTable>(table), {&light, 1}, kBallSize);
+    return displayImage(ball, automaticExposure(ball));
+}
 
 void makeDebugFolder(const fs::path& folder)
 {

@@ -10,6 +10,7 @@
 #include "app/evaluate_report.h"
 #include "app/interpolation_arguments.h"
 #include "app/progress_line.h"
+#include "app/residual_arguments.h"
 #include "engine/scene/error.h"
 #include "engine/scene/whole_file.h"
 #include "evaluation/held_out.h"
@@ -23,11 +24,14 @@ constexpr const char* kWorst = "worst.png";
 struct EvaluateArguments {
     CaptureArguments common;
     InterpolationArguments interpolation;
+    ResidualArguments residual;
     std::filesystem::path truth;
     std::filesystem::path output;
     std::string holdOut = "every:7";
     bool baselines = false;
 };
+
+constexpr const char* kEach = "each";
 
 size_t holdOutEvery(const std::string& text)
 {
@@ -38,7 +42,7 @@ size_t holdOutEvery(const std::string& text)
         every = std::stoul(text.substr(prefix.size()));
     }
     if (every < 2) {
-        throw Error("", "--hold-out " + text + " is not understood", "every:N, N from 2", Error::kUsage);
+        throw Error("", "--hold-out " + text + " is not understood", "every:N, N from 2, or each", Error::kUsage);
     }
     return every;
 }
@@ -75,14 +79,18 @@ void runEvaluate(EvaluateArguments& arguments)
     CaptureArguments& common = arguments.common;
     AcquireOptions options = common.stageOptions();
     options.interpolation = arguments.interpolation.options(options.interpolation.threads);
-    options.lights.heldOutEvery = holdOutEvery(arguments.holdOut);
+    options.residual = arguments.residual.options(options.ladder);
+    const bool each = arguments.holdOut == kEach;
+    options.lights.heldOutEvery = each ? 0 : holdOutEvery(arguments.holdOut);
     checkOutputs(arguments);
     const Capture capture = common.load();
+    options.lights.heldOutEvery = each ? capture.photographs.size() : options.lights.heldOutEvery;
     std::vector<RelightingBaseline> baselines;
     if (arguments.baselines) {
         baselines.assign(std::begin(kRelightingBaselines), std::end(kRelightingBaselines));
     }
-    const HeldOutEvaluation evaluation = evaluateHeldOut(capture, options, baselines, progressLine(common.quiet));
+    const HeldOutEvaluation evaluation = evaluateHeldOut(capture, options, baselines, progressLine(common.quiet),
+                                                         each ? options.lights.heldOutEvery : 1);
     endProgressLine(common.quiet);
     const std::optional<AngularError> error = normalError(arguments, capture, evaluation.acquisition.surface.normals);
     if (!common.quiet) {
@@ -104,8 +112,11 @@ void addEvaluateCommand(CLI::App& app)
     CLI::App* command = app.add_subcommand("evaluate", "The whole chain, judged by photographs that are held out");
     arguments->common.addTo(*command);
     arguments->interpolation.addTo(*command);
+    arguments->residual.addTo(*command);
     command
-        ->add_option("--hold-out", arguments->holdOut, "every:N keeps back the first photograph and every N-th after")
+        ->add_option(
+            "--hold-out", arguments->holdOut,
+            "every:N keeps back the first photograph and every N-th after; each keeps back one after the other")
         ->capture_default_str();
     command->add_option("--truth", arguments->truth,
                         "True normals to compare with (.mat, .png, .exr); sphere: those of the ball that fills the "

@@ -9,6 +9,7 @@
 
 #include "app/acquisition_summary.h"
 #include "app/contact_sheet.h"
+#include "app/residual_arguments.h"
 
 namespace nacre {
 
@@ -106,7 +107,7 @@ std::string describe(const HeldOutEvaluation& evaluation, const std::optional<An
                             normals->mean, normals->median, normals->percentile95, normals->pixels, normals->missing);
     }
     return text + fmt::format("model        {} bytes\n", evaluation.modelBytes) +
-           describe(evaluation.acquisition.estimate.times);
+           describe(evaluation.acquisition.residual) + describe(evaluation.acquisition.estimate.times);
 }
 
 nlohmann::ordered_json documentOf(const HeldOutEvaluation& evaluation, const std::optional<AngularError>& normals)
@@ -115,6 +116,7 @@ nlohmann::ordered_json documentOf(const HeldOutEvaluation& evaluation, const std
                                     {"photographsHeldOut", evaluation.photographs},
                                     {"worstPhotograph", evaluation.photographs[evaluation.worst]},
                                     {"modelBytes", evaluation.modelBytes},
+                                    {"residual", documentOf(evaluation.acquisition.residual)},
                                     {"acquisitionSeconds", evaluation.seconds}};
     for (const StageTime& time : evaluation.acquisition.estimate.times) {
         std::string stage = time.stage;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -20,10 +21,26 @@ bool isClearlyLess(const ChartAxis& axis, double value, double usual)
     return costOf(axis, value) < (1 - kClearlyBetter) * costOf(axis, usual);
 }
 
-auto findDefault(const Chart& chart)
+// The default's index, or none.
+std::optional<size_t> findDefault(const Chart& chart, const std::vector<size_t>& contest)
 {
-    return std::find_if(chart.points.begin(), chart.points.end(),
-                        [](const ChartPoint& point) { return point.isDefault && std::isfinite(point.y); });
+    const auto found = std::find_if(contest.begin(), contest.end(), [&](size_t i) {
+        return chart.points[i].isDefault && std::isfinite(chart.points[i].y);
+    });
+    return found == contest.end() ? std::nullopt : std::optional(*found);
+}
+
+std::vector<size_t> clearlyBetter(const Chart& chart, const std::vector<size_t>& contest)
+{
+    std::vector<size_t> better;
+    const std::optional<size_t> usual = findDefault(chart, contest);
+    for (size_t i = 0; usual && i < contest.size(); ++i) {
+        const ChartPoint &point = chart.points[contest[i]], &reference = chart.points[*usual];
+        if (isClearlyLess(chart.x, point.x, reference.x) && isClearlyLess(chart.y, point.y, reference.y)) {
+            better.push_back(contest[i]);
+        }
+    }
+    return better;
 }
 
 // Labels may name their series already.
@@ -37,29 +54,30 @@ std::string nameOf(const ChartPoint& point)
 std::vector<size_t> clearlyBetter(const Chart& chart)
 {
     std::vector<size_t> better;
-    const auto usual = findDefault(chart);
-    for (size_t i = 0; i < chart.points.size() && usual != chart.points.end(); ++i) {
-        const ChartPoint& point = chart.points[i];
-        if (isClearlyLess(chart.x, point.x, usual->x) && isClearlyLess(chart.y, point.y, usual->y)) {
-            better.push_back(i);
-        }
+    for (const std::vector<size_t>& contest : contestsOf(chart)) {
+        const std::vector<size_t> own = clearlyBetter(chart, contest);
+        better.insert(better.end(), own.begin(), own.end());
     }
     return better;
 }
 
 std::string describeDefault(const Chart& chart)
 {
-    const auto usual = findDefault(chart);
-    if (usual == chart.points.end()) {
-        return {};
+    std::string text;
+    for (const std::vector<size_t>& contest : contestsOf(chart)) {
+        const std::optional<size_t> usual = findDefault(chart, contest);
+        if (!usual) {
+            continue;
+        }
+        std::string names;
+        for (const size_t i : clearlyBetter(chart, contest)) {
+            names += (names.empty() ? "" : "; ") + nameOf(chart.points[i]);
+        }
+        text += fmt::format("{}The program's default ({}) is beaten by more than {:.0f} % in both by {}.",
+                            text.empty() ? "" : " ", nameOf(chart.points[*usual]), 100 * kClearlyBetter,
+                            names.empty() ? "no other setting" : names);
     }
-    std::string names;
-    for (const size_t i : clearlyBetter(chart)) {
-        const ChartPoint& point = chart.points[i];
-        names += (names.empty() ? "" : "; ") + nameOf(point);
-    }
-    return fmt::format("The program's default ({}) is beaten by more than {:.0f} % in both by {}.", nameOf(*usual),
-                       100 * kClearlyBetter, names.empty() ? "no other setting" : names);
+    return text;
 }
 
 } // namespace nacre

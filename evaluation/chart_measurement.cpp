@@ -7,6 +7,7 @@
 #include "engine/scene/error.h"
 #include "evaluation/chart_baking.h"
 #include "evaluation/held_out_measures.h"
+#include "evaluation/judging_photographs.h"
 
 namespace nacre {
 
@@ -14,43 +15,23 @@ namespace {
 
 const Progress kSilent = [](const std::string&, double) {};
 
-// Photographs that nobody is given, and what their values are measured against.
-struct HeldOut {
-    Observations seen;
-    std::vector<Light> lights;
-    double peak = 1;
-};
-
 size_t countGiven(const Capture& capture)
 {
     const size_t all = capture.photographs.size();
     return all - (all + kChartHeldOutEvery - 1) / kChartHeldOutEvery;
 }
 
-HeldOut readHeldOut(const Capture& capture, const AcquireOptions& options)
+// Reads the whole capture at once, whose peak counts.
+JudgingPhotographs readHeldOut(const Capture& capture, const AcquireOptions& options)
 {
     const Rig rig = calibrateLights(capture, options.calibration);
-    std::vector<size_t> chosen;
-    for (size_t i = 0; i < capture.photographs.size(); ++i) {
-        if (isHeldOutOfEvery(i, kChartHeldOutEvery)) {
-            chosen.push_back(i);
-        }
-    }
-    HeldOut heldOut;
+    const std::vector<size_t> chosen = heldOutIndices(capture.photographs.size(), kChartHeldOutEvery);
+    JudgingPhotographs heldOut;
     ObservationReader(capture, options.normals.threads, ~size_t{0}).next(heldOut.seen);
-    std::vector<float> values;
-    for (const glm::vec3& v : heldOut.seen.radiance) {
-        values.insert(values.end(), {v.x, v.y, v.z});
-    }
-    heldOut.peak = values.empty() ? 1.0 : std::max(quantile(values, 0.99), 1e-12f);
+    heldOut.peak = peakOf(heldOut.seen);
     heldOut.seen = selectLights(heldOut.seen, chosen);
     heldOut.lights = selectLights(rig.lights, chosen);
     return heldOut;
-}
-
-double psnrOf(const Surface& surface, const HeldOut& heldOut, int threads)
-{
-    return pooledPsnr(predictBySurface(surface, heldOut.seen, heldOut.lights, threads), heldOut.seen, heldOut.peak);
 }
 
 // The stages from observations to normals; files are read either way.
@@ -64,7 +45,7 @@ double normalSeconds(const NormalEstimate& estimate)
 }
 
 NormalRow measureNormalSetting(const Capture& capture, AcquireOptions options, const NormalSetting& setting,
-                               const HeldOut& heldOut)
+                               const JudgingPhotographs& heldOut)
 {
     NormalRow row;
     row.capture = capture.name;
@@ -92,7 +73,7 @@ NormalRow measureNormalSetting(const Capture& capture, AcquireOptions options, c
 // One setting, by a surface that was baked for another format of the same table, or anew.
 class TableMeasurement {
 public:
-    TableMeasurement(const Capture& capture, const AcquireOptions& options, const HeldOut& heldOut)
+    TableMeasurement(const Capture& capture, const AcquireOptions& options, const JudgingPhotographs& heldOut)
         : capture_(capture), options_(options), heldOut_(heldOut), baking_(capture, options, kSilent)
     {
     }
@@ -118,7 +99,7 @@ public:
 private:
     const Capture& capture_;
     const AcquireOptions& options_;
-    const HeldOut& heldOut_;
+    const JudgingPhotographs& heldOut_;
     ChartBaking baking_;
     Surface baked_;
     BrdfSetting bakedFor_;
@@ -147,7 +128,7 @@ void measureSettings(const Capture& capture, const AcquireOptions& asked, const 
 {
     AcquireOptions options = asked;
     options.lights.heldOutEvery = kChartHeldOutEvery;
-    const HeldOut heldOut = readHeldOut(capture, options);
+    const JudgingPhotographs heldOut = readHeldOut(capture, options);
     const size_t all = countSettings(capture, choices);
     size_t done = 0;
     for (const NormalSetting& setting : normalSettings(choices, choices.normals ? countGiven(capture) : 0)) {

@@ -8,22 +8,11 @@
 
 #include "evaluation/chart_default.h"
 #include "evaluation/chart_marks.h"
+#include "evaluation/html_page.h"
 
 namespace nacre {
 
 namespace {
-
-std::string fieldOf(const std::string& text)
-{
-    if (text.find_first_of(",\"\r\n") == std::string::npos) {
-        return text;
-    }
-    std::string quoted = "\"";
-    for (const char c : text) {
-        quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
-    }
-    return quoted + "\"";
-}
 
 template <class Row> std::vector<Row> ofCapture(const std::vector<Row>& rows, const std::string& capture)
 {
@@ -94,22 +83,20 @@ Chart brdfChart(const std::string& capture, const std::vector<BrdfRow>& rows, bo
     return chart;
 }
 
-std::string tableRow(const std::vector<std::string>& cells, bool front, bool usual)
+std::string kindOf(bool front, bool usual)
 {
-    std::string html = fmt::format("<tr class=\"{}\">", usual ? "default" : front ? "front" : "");
-    for (const std::string& cell : cells) {
-        html += "<td>" + escaped(cell) + "</td>";
-    }
-    return html + "</tr>\n";
+    return usual ? "default" : front ? "front" : "";
 }
 
-std::string tableOf(const std::vector<std::string>& heads, const std::string& body, size_t rows)
+// Which of two fronts a setting is on.
+std::string frontsOf(bool first, const char* firstName, bool second, const char* secondName)
 {
-    std::string html = fmt::format("<details><summary>{} settings</summary><div class=\"wide\"><table><tr>", rows);
-    for (const std::string& head : heads) {
-        html += "<th>" + head + "</th>";
-    }
-    return html + "</tr>\n" + body + "</table></div></details>\n";
+    return first && second ? "both" : first ? firstName : second ? secondName : "";
+}
+
+std::string foldedTable(const std::vector<std::string>& heads, const std::string& body, size_t rows)
+{
+    return folded(fmt::format("{} settings", rows), tableOf(heads, body));
 }
 
 std::string normalTable(const std::vector<NormalRow>& rows, const std::vector<char>& front)
@@ -122,9 +109,9 @@ std::string normalTable(const std::vector<NormalRow>& rows, const std::vector<ch
                                                      : fmt::format("{:.2f} dB", r.psnr);
         body += tableRow({nameOf(r.setting.method), std::to_string(r.photographs), fmt::format("{:.2f}", r.seconds),
                           error, front[i] ? "yes" : ""},
-                         front[i], isDefault(r.setting));
+                         kindOf(front[i], isDefault(r.setting)));
     }
-    return tableOf({"method", "lights", "seconds", "error", "on the front"}, body, rows.size());
+    return foldedTable({"method", "lights", "seconds", "error", "on the front"}, body, rows.size());
 }
 
 std::string brdfTable(const std::vector<BrdfRow>& rows, const std::vector<char>& bytes,
@@ -136,67 +123,33 @@ std::string brdfTable(const std::vector<BrdfRow>& rows, const std::vector<char>&
         body += tableRow({nameOf(r.setting.interpolation), std::to_string(r.setting.k),
                           fmt::format("{}x{}x{}", r.size.x, r.size.y, r.size.z), nameOf(r.setting.format),
                           std::to_string(r.bytes), fmt::format("{:.2f}", r.seconds), fmt::format("{:.2f}", r.psnr),
-                          bytes[i] && seconds[i] ? "both"
-                          : bytes[i]             ? "bytes"
-                          : seconds[i]           ? "time"
-                                                 : ""},
-                         bytes[i] || seconds[i], isDefault(r.setting));
+                          frontsOf(bytes[i], "bytes", seconds[i], "time")},
+                         kindOf(bytes[i] || seconds[i], isDefault(r.setting)));
     }
-    return tableOf({"interpolation", "k", "table", "format", "bytes", "seconds", "PSNR, dB", "on the front of"}, body,
-                   rows.size());
+    return foldedTable({"interpolation", "k", "table", "format", "bytes", "seconds", "PSNR, dB", "on the front of"},
+                       body, rows.size());
+}
+
+std::string renderingTable(const std::vector<RenderingRow>& rows, const std::vector<char>& steady,
+                           const std::vector<char>& moved)
+{
+    std::string body;
+    for (size_t i = 0; i < rows.size(); ++i) {
+        const RenderingRow& r = rows[i];
+        body += tableRow({describe(r.setting), std::to_string(r.lights), fmt::format("{:.2f}", r.steadyMs),
+                          fmt::format("{:.2f}", r.movedMs), fmt::format("{:.2f}", r.psnr),
+                          frontsOf(steady[i], "steady", moved[i], "moved")},
+                         kindOf(steady[i] || moved[i], r.isDefault));
+    }
+    return foldedTable({"path", "lights", "steady, ms", "moved, ms", "PSNR, dB", "on the front of"}, body, rows.size());
 }
 
 std::string section(const Chart& chart)
 {
-    return svgOf(chart) + "<p>" + escaped(describeDefault(chart)) + "</p>\n";
+    return "<div class=\"wide\">" + svgOf(chart) + "</div><p>" + escaped(describeDefault(chart)) + "</p>\n";
 }
-
-constexpr const char* kHead = R"(<!DOCTYPE html>
-<html lang="en"><head><meta charset="utf-8"><meta name="viewport" content="width=device-width, initial-scale=1">
-<title>Nacre: speed against accuracy</title>
-<style>
-body { font: 16px/1.5 sans-serif; color: #222; max-width: 60rem; margin: 0 auto; padding: 1rem; }
-svg { width: 100%; height: auto; }
-.wide { overflow-x: auto; }
-table { border-collapse: collapse; font-size: 0.85rem; font-variant-numeric: tabular-nums; }
-th, td { padding: 0.15rem 0.7rem; text-align: left; border-bottom: 1px solid #ddd; }
-tr.front td { color: #0072b2; }
-tr.default td { color: #d55e00; font-weight: bold; }
-</style></head><body>
-<h1>Speed against accuracy</h1>
-)";
 
 } // namespace
-
-std::string csvOf(const std::vector<NormalRow>& rows)
-{
-    std::string text = "capture,method,lights_given,seconds,mean_degrees,median_degrees,percentile95_degrees,"
-                       "missing_pixels,held_out_psnr_decibels,is_default,refusal\n";
-    for (const NormalRow& r : rows) {
-        const bool done = r.refusal.empty();
-        text += fmt::format("{},{},{},{},{},{},{},{},{},{},{}\n", fieldOf(r.capture), nameOf(r.setting.method),
-                            r.photographs, done ? fmt::format("{:.4f}", r.seconds) : "",
-                            done && r.hasTruth ? fmt::format("{:.4f}", r.error.mean) : "",
-                            done && r.hasTruth ? fmt::format("{:.4f}", r.error.median) : "",
-                            done && r.hasTruth ? fmt::format("{:.4f}", r.error.percentile95) : "",
-                            done && r.hasTruth ? std::to_string(r.error.missing) : "",
-                            done && !r.hasTruth ? fmt::format("{:.4f}", r.psnr) : "",
-                            isDefault(r.setting) ? "yes" : "no", fieldOf(r.refusal));
-    }
-    return text;
-}
-
-std::string csvOf(const std::vector<BrdfRow>& rows)
-{
-    std::string text = "capture,interpolation,k,texels_x,texels_y,texels_z,format,bytes,bake_seconds,"
-                       "held_out_psnr_decibels,is_default\n";
-    for (const BrdfRow& r : rows) {
-        text += fmt::format("{},{},{},{},{},{},{},{},{:.4f},{:.4f},{}\n", fieldOf(r.capture),
-                            nameOf(r.setting.interpolation), r.setting.k, r.size.x, r.size.y, r.size.z,
-                            nameOf(r.setting.format), r.bytes, r.seconds, r.psnr, isDefault(r.setting) ? "yes" : "no");
-    }
-    return text;
-}
 
 std::vector<NamedChart> chartsOf(const ChartRows& rows)
 {
@@ -210,12 +163,17 @@ std::vector<NamedChart> chartsOf(const ChartRows& rows)
         charts.push_back({fileName(capture, "brdf-bytes", taken), brdfChart(capture, own, true)});
         charts.push_back({fileName(capture, "brdf-time", taken), brdfChart(capture, own, false)});
     }
+    for (const std::string& capture : capturesOf(rows.rendering)) {
+        const std::vector<RenderingRow> own = ofCapture(rows.rendering, capture);
+        charts.push_back({fileName(capture, "rendering-steady", taken), steadyFrameChart(capture, own)});
+        charts.push_back({fileName(capture, "rendering-moved", taken), movedFrameChart(capture, own)});
+    }
     return charts;
 }
 
 std::string reportOf(const ChartRows& rows, const std::vector<std::string>& remarks)
 {
-    std::string html = kHead;
+    std::string html = pageHead("Nacre: speed against accuracy", "Speed against accuracy");
     for (const std::string& remark : remarks) {
         html += "<p>" + escaped(remark) + "</p>\n";
     }
@@ -230,7 +188,13 @@ std::string reportOf(const ChartRows& rows, const std::vector<std::string>& rema
         html += "<h2>" + escaped(capture) + ": BRDF</h2>\n" + section(bytes) + section(seconds) +
                 brdfTable(own, frontOf(bytes), frontOf(seconds));
     }
-    return html + "</body></html>\n";
+    for (const std::string& capture : capturesOf(rows.rendering)) {
+        const std::vector<RenderingRow> own = ofCapture(rows.rendering, capture);
+        const Chart steady = steadyFrameChart(capture, own), moved = movedFrameChart(capture, own);
+        html += "<h2>" + escaped(capture) + ": rendering</h2>\n" + section(steady) + section(moved) +
+                renderingTable(own, frontOf(steady), frontOf(moved));
+    }
+    return html + kPageEnd;
 }
 
 } // namespace nacre

@@ -7,17 +7,14 @@
 
 namespace nacre {
 
-// Comma-separated values, a line a setting under a heading (RFC 4180). Empty fields: not measured.
-std::string csvOf(const std::vector<NormalRow>& rows);
-std::string csvOf(const std::vector<BrdfRow>& rows);
-
 // A chart and the name of its file.
 struct NamedChart {
     std::string file;
     Chart chart;
 };
 
-// Of every capture, as far as there are rows: normals against time, the BRDF against bytes and against baking time.
+// Of every capture, as far as there are rows: normals against time, the BRDF against bytes and
+// against baking time, frames against their time.
 std::vector<NamedChart> chartsOf(const ChartRows& rows);
 
 // One page that needs no other file and no network: every chart with the table of its settings. `remarks` stand at

@@ -5,6 +5,7 @@
 #include "acquisition/acquire_options.h"
 #include "engine/scene/measures.h"
 #include "engine/scene/texel_format.h"
+#include "evaluation/rendering_chart.h"
 
 namespace nacre {
 
@@ -31,8 +32,10 @@ struct ChartChoices {
     std::vector<InterpolationMethod> interpolations{InterpolationMethod::localLinear, InterpolationMethod::paper};
     std::vector<int> neighbours{5, 12, 25, 50, 100};
     std::vector<TexelFormat> formats{TexelFormat::rgba32f, TexelFormat::rgba16f, TexelFormat::e5b9g9r9};
+    RenderingChoices frames;
     bool normals = true; // whether this part is wanted
     bool brdf = true;
+    bool rendering = true;
 };
 
 // The size that a table has by default, half of it along thetaD and phiD, and half and quarters.
@@ -70,6 +73,7 @@ struct BrdfRow {
 struct ChartRows {
     std::vector<NormalRow> normals;
     std::vector<BrdfRow> brdf;
+    std::vector<RenderingRow> rendering;
 };
 
 // "consensus, 12 lights"; "k 25, 90x23x23 RGBA16F": the interpolation is told by the marker.

@@ -72,46 +72,45 @@ std::string axesOf(const Chart& chart, const ChartScale& x, const ChartScale& y)
                     fmt::format(" transform=\"translate(16 {:.1f}) rotate(-90)\"", middle));
 }
 
-// From left to right.
-std::vector<const Drawn*> frontLine(const std::vector<Drawn>& drawn)
+// Those of one contest from left to right.
+std::vector<std::vector<const Drawn*>> frontLines(const Chart& chart, const std::vector<Drawn>& drawn)
 {
-    std::vector<const Drawn*> front;
-    for (const Drawn& d : drawn) {
-        if (d.isFront) {
-            front.push_back(&d);
+    std::vector<std::vector<const Drawn*>> lines;
+    for (const std::vector<size_t>& contest : contestsOf(chart)) {
+        std::vector<const Drawn*>& line = lines.emplace_back();
+        for (const Drawn& d : drawn) {
+            const size_t point = static_cast<size_t>(d.point - chart.points.data());
+            if (d.isFront && std::binary_search(contest.begin(), contest.end(), point)) {
+                line.push_back(&d);
+            }
         }
+        std::sort(line.begin(), line.end(),
+                  [](const Drawn* a, const Drawn* b) { return std::pair(a->x, a->y) < std::pair(b->x, b->y); });
     }
-    std::sort(front.begin(), front.end(),
-              [](const Drawn* a, const Drawn* b) { return std::pair(a->x, a->y) < std::pair(b->x, b->y); });
-    return front;
+    return lines;
 }
 
 // Grey first, so that what matters lies on top.
-std::string pointsOf(const std::vector<Drawn>& drawn)
+std::string pointsOf(const Chart& chart, const std::vector<Drawn>& drawn)
 {
-    std::string below, above, path;
+    std::string below, above, lines;
     for (const Drawn& d : drawn) {
         (d.isFront ? above : below) += seriesMark(d.x, d.y, d.series, d.isFront ? kFrontColour : kDominatedColour);
         above += d.point->isDefault ? ringMark(d.x, d.y) : "";
     }
-    for (const Drawn* d : frontLine(drawn)) {
-        path += fmt::format("{:.1f},{:.1f} ", d->x, d->y);
+    for (const std::vector<const Drawn*>& front : frontLines(chart, drawn)) {
+        std::string path;
+        for (const Drawn* d : front) {
+            path += fmt::format("{:.1f},{:.1f} ", d->x, d->y);
+        }
+        lines += fmt::format("<polyline points=\"{}\" fill=\"none\" stroke=\"{}\" stroke-opacity=\"0.5\"/>\n", path,
+                             kFrontColour);
     }
-    return below +
-           fmt::format("<polyline points=\"{}\" fill=\"none\" stroke=\"{}\" stroke-opacity=\"0.5\"/>\n", path,
-                       kFrontColour) +
-           above;
+    return below + lines + above;
 }
 
-// What labels keep clear of: marks, and the front's line.
-std::vector<LabelBox> obstaclesOf(const std::vector<Drawn>& drawn)
+void addLine(const std::vector<const Drawn*>& front, std::vector<LabelBox>& boxes)
 {
-    std::vector<LabelBox> boxes;
-    for (const Drawn& d : drawn) {
-        const double half = d.point->isDefault ? 10 : 6;
-        boxes.push_back({d.x - half, d.y - half, 2 * half, 2 * half});
-    }
-    const std::vector<const Drawn*> front = frontLine(drawn);
     for (size_t i = 1; i < front.size(); ++i) {
         const Drawn &a = *front[i - 1], &b = *front[i];
         constexpr double kStep = 4;
@@ -121,10 +120,23 @@ std::vector<LabelBox> obstaclesOf(const std::vector<Drawn>& drawn)
             boxes.push_back({a.x + t * (b.x - a.x) - 1, a.y + t * (b.y - a.y) - 1, 2, 2});
         }
     }
+}
+
+// What labels keep clear of: marks, and the fronts' lines.
+std::vector<LabelBox> obstaclesOf(const Chart& chart, const std::vector<Drawn>& drawn)
+{
+    std::vector<LabelBox> boxes;
+    for (const Drawn& d : drawn) {
+        const double half = d.point->isDefault ? 10 : 6;
+        boxes.push_back({d.x - half, d.y - half, 2 * half, 2 * half});
+    }
+    for (const std::vector<const Drawn*>& front : frontLines(chart, drawn)) {
+        addLine(front, boxes);
+    }
     return boxes;
 }
 
-std::string labelsOf(const std::vector<Drawn>& drawn)
+std::string labelsOf(const Chart& chart, const std::vector<Drawn>& drawn)
 {
     std::vector<LabelAnchor> anchors;
     for (const Drawn& d : drawn) {
@@ -134,7 +146,7 @@ std::string labelsOf(const std::vector<Drawn>& drawn)
     }
     std::string lines, texts;
     const LabelBox frame{kLeft + 2, kTop, kWidth - kLeft - kRight - 4, kHeight - kTop - kBottom - 2};
-    for (const PlacedLabel& label : placeLabels(anchors, obstaclesOf(drawn), frame)) {
+    for (const PlacedLabel& label : placeLabels(anchors, obstaclesOf(chart, drawn), frame)) {
         const LabelBox& box = label.box;
         const double x = std::clamp(label.anchor.x, box.x, box.x + box.width),
                      y = std::clamp(label.anchor.y, box.y, box.y + box.height);
@@ -209,21 +221,39 @@ std::string bodyOf(const Chart& chart, double& legendHeight)
     const std::vector<Drawn> drawn = drawnOf(chart, series, x, y);
     std::string legend;
     legendHeight = addLegend(series, legend);
-    return axesOf(chart, x, y) + pointsOf(drawn) + labelsOf(drawn) + legend;
+    return axesOf(chart, x, y) + pointsOf(chart, drawn) + labelsOf(chart, drawn) + legend;
 }
 
 } // namespace
 
+std::vector<std::vector<size_t>> contestsOf(const Chart& chart)
+{
+    const std::vector<std::string> series = seriesOf(chart);
+    std::vector<std::vector<size_t>> contests(chart.isFrontPerSeries ? series.size() : 1);
+    for (size_t i = 0; i < chart.points.size(); ++i) {
+        const auto at = std::find(series.begin(), series.end(), chart.points[i].series) - series.begin();
+        contests[chart.isFrontPerSeries ? static_cast<size_t>(at) : 0].push_back(i);
+    }
+    return contests;
+}
+
 std::vector<char> frontOf(const Chart& chart)
 {
-    std::vector<Cost> costs;
-    for (const ChartPoint& point : chart.points) {
-        const bool drawn = isDrawn(chart, point);
-        costs.push_back(drawn
-                            ? Cost{chart.x.isLessBetter ? point.x : -point.x, chart.y.isLessBetter ? point.y : -point.y}
-                            : Cost{std::nan(""), std::nan("")});
+    std::vector<char> front(chart.points.size(), 0);
+    for (const std::vector<size_t>& contest : contestsOf(chart)) {
+        std::vector<Cost> costs;
+        for (const size_t i : contest) {
+            const ChartPoint& point = chart.points[i];
+            const double unknown = std::nan("");
+            costs.push_back({chart.x.isLessBetter ? point.x : -point.x, chart.y.isLessBetter ? point.y : -point.y});
+            costs.back() = isDrawn(chart, point) ? costs.back() : Cost{unknown, unknown};
+        }
+        const std::vector<char> own = paretoFront(costs);
+        for (size_t i = 0; i < contest.size(); ++i) {
+            front[contest[i]] = own[i];
+        }
     }
-    return paretoFront(costs);
+    return front;
 }
 
 std::string svgOf(const Chart& chart)

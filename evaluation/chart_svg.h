@@ -19,9 +19,14 @@ struct Chart {
     std::string title;
     ChartAxis x, y;
     std::vector<ChartPoint> points;
+    // Series are then different questions, not different answers: each has its own front and its own default.
+    bool isFrontPerSeries = false;
 };
 
-// 1 for each point that no other beats on both axes; points that cannot be drawn are not on it.
+// The points that compete with each other, as indices: all of them, or those of each series.
+std::vector<std::vector<size_t>> contestsOf(const Chart& chart);
+
+// 1 for each point that no other of its contest beats on both axes; points that cannot be drawn are not on it.
 std::vector<char> frontOf(const Chart& chart);
 
 // A picture of its own (SVG 1.1): the front as a line through coloured points, dominated points grey, a ring about the

@@ -1,11 +1,14 @@
 #include "evaluation/held_out.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 
 #include <fmt/format.h>
 
 #include "acquisition/normals/light_triples.h"
+#include "acquisition/normals/pixel_sample.h"
+#include "acquisition/prepared_normals.h"
 #include "engine/scene/measures.h"
 #include "engine/scene/parallel_for.h"
 
@@ -32,23 +35,42 @@ double percentile99(const Observations& all, bool grey)
     return values.empty() ? 1.0 : std::max(quantile(values, 0.99), 1e-12f);
 }
 
-std::vector<size_t> heldOutOf(size_t photographs, size_t every)
+std::vector<size_t> heldOutOf(size_t photographs, const LightChoice& choice)
 {
     std::vector<size_t> heldOut;
     for (size_t i = 0; i < photographs; ++i) {
-        if (isHeldOutOfEvery(i, every)) {
+        if (isHeldOutOfEvery(i, choice.heldOutEvery, choice.heldOutFirst)) {
             heldOut.push_back(i);
         }
     }
     return heldOut;
 }
 
-Truth readTruth(const Capture& capture, const Rig& rig, const std::vector<size_t>& heldOut,
-                const std::vector<size_t>& given, int threads)
+// The irradiances that all photographs together give, where the acquisition may correct them: one that nobody can know
+// from the others says nothing of a method.
+Rig reconciledRig(const Capture& capture, Rig rig, const Observations& all, const AcquireOptions& options)
 {
-    ObservationReader reader(capture, threads, ~size_t{0});
+    CaptureSample sample{samplePixels(capture, all, options.normals.threads, options.byteBudget),
+                         {},
+                         capture.irradianceGiven || capture.diffuseSphere.has_value(),
+                         rig.lights};
+    for (const Photograph& photograph : capture.photographs) {
+        sample.photographs.push_back(photograph.name);
+    }
+    const PreparedNormals prepared = preparePhotographs(sample, options);
+    for (size_t i = 0; i < prepared.agreeing.size(); ++i) {
+        rig.lights[prepared.agreeing[i]] = prepared.lights[i];
+    }
+    return rig;
+}
+
+Truth readTruth(const Capture& capture, const Rig& calibrated, const std::vector<size_t>& heldOut,
+                const std::vector<size_t>& given, const AcquireOptions& options)
+{
+    ObservationReader reader(capture, options.normals.threads, ~size_t{0});
     Observations all;
     reader.next(all);
+    const Rig rig = reconciledRig(capture, calibrated, all, options);
     return {selectLights(all, heldOut),      selectLights(all, given), selectLights(rig, heldOut).lights,
             selectLights(rig, given).lights, percentile99(all, false), percentile99(all, true)};
 }
@@ -62,11 +84,23 @@ double ownPeakOf(const Observations& seen, size_t photograph)
     return values.empty() ? 1.0 : std::max(quantile(values, 0.99), 1e-12f);
 }
 
-PredictionScore scoreOf(const std::string& method, const Truth& truth, const Predictions& predicted)
+// Squared errors of one method over all that was held out so far.
+struct PooledErrors {
+    std::string method;
+    double colour = 0, grey = 0, ownPeak = 0;
+    size_t values = 0; // grey ones
+    std::vector<double> photographs;
+
+    void add(const Truth& truth, const Predictions& predicted);
+    PredictionScore score() const
+    {
+        return {method, decibels(colour, 3 * values), decibels(grey, values), decibels(ownPeak, values), photographs};
+    }
+};
+
+void PooledErrors::add(const Truth& truth, const Predictions& predicted)
 {
     const size_t count = truth.heldOut.lightCount, pixels = truth.heldOut.pixels.size();
-    PredictionScore score{method, 0, 0, 0, {}};
-    double pooled = 0, grey = 0, ownPeak = 0;
     for (size_t j = 0; j < count; ++j) {
         double sum = 0;
         const double peak = ownPeakOf(truth.heldOut, j);
@@ -78,13 +112,10 @@ PredictionScore scoreOf(const std::string& method, const Truth& truth, const Pre
             grey += std::pow(clippedError(greyOf(a), greyOf(b), truth.greyPeak), 2);
             ownPeak += std::pow(clippedError(greyOf(a), greyOf(b), peak), 2);
         }
-        score.photographs.push_back(decibels(sum, 3 * pixels));
-        pooled += sum;
+        photographs.push_back(decibels(sum, 3 * pixels));
+        colour += sum;
     }
-    score.psnr = decibels(pooled, 3 * pixels * count);
-    score.greyPsnr = decibels(grey, pixels * count);
-    score.ownPeakPsnr = decibels(ownPeak, pixels * count);
-    return score;
+    values += pixels * count;
 }
 
 Predictions predictByWeights(const Truth& truth, const std::vector<float>& weights, int threads)
@@ -106,19 +137,33 @@ Predictions predictByWeights(const Truth& truth, const std::vector<float>& weigh
     return predicted;
 }
 
-PredictionScore bestScoreOf(RelightingBaseline baseline, const Truth& truth, int threads)
-{
-    const auto given = directionsOf(truth.givenLights), asked = directionsOf(truth.heldOutLights);
-    PredictionScore best;
-    for (const Smoothing& smoothing : smoothingsOf(baseline)) {
-        const std::vector<float> weights = relightingWeights(baseline, smoothing, given, asked);
-        const PredictionScore score = scoreOf(nameOf(baseline), truth, predictByWeights(truth, weights, threads));
-        if (best.method.empty() || score.psnr > best.psnr) {
-            best = score;
+// One baseline at each of its smoothings.
+struct BaselineErrors {
+    RelightingBaseline baseline;
+    std::vector<PooledErrors> smoothings;
+
+    explicit BaselineErrors(RelightingBaseline b) : baseline(b), smoothings(smoothingsOf(b).size())
+    {
+        for (PooledErrors& errors : smoothings) {
+            errors.method = nameOf(b);
         }
     }
-    return best;
-}
+    void add(const Truth& truth, int threads)
+    {
+        const auto given = directionsOf(truth.givenLights), asked = directionsOf(truth.heldOutLights);
+        for (size_t i = 0; i < smoothings.size(); ++i) {
+            const Smoothing smoothing = smoothingsOf(baseline)[i];
+            smoothings[i].add(truth,
+                              predictByWeights(truth, relightingWeights(baseline, smoothing, given, asked), threads));
+        }
+    }
+    // Of the smoothing that turned out best over all that was held out.
+    PredictionScore best() const
+    {
+        const auto less = [](const PooledErrors& a, const PooledErrors& b) { return a.colour < b.colour; };
+        return std::min_element(smoothings.begin(), smoothings.end(), less)->score();
+    }
+};
 
 // Photograph by photograph, and the pictures of the one that is predicted worst.
 void judgePhotographs(const Capture& capture, const Truth& truth, const Predictions& predicted,
@@ -126,15 +171,16 @@ void judgePhotographs(const Capture& capture, const Truth& truth, const Predicti
 {
     evaluation.peak = truth.peak;
     for (size_t j = 0; j < truth.heldOut.lightCount; ++j) {
+        const size_t index = evaluation.measures.size();
         const auto picture = [&](std::span<const glm::vec3> radiance) {
             return pictureOf(truth.heldOut, radiance, j, capture.width, capture.height);
         };
         const Image photograph = picture(truth.heldOut.radiance), prediction = picture(predicted);
         PhotographMeasures measures = measurePhotograph(prediction, photograph, capture.mask, truth.peak);
-        measures.photograph = evaluation.photographs[j];
+        measures.photograph = evaluation.photographs[index];
         evaluation.measures.push_back(measures);
-        if (j == 0 || measures.psnr < evaluation.measures[evaluation.worst].psnr) {
-            evaluation.worst = j;
+        if (index == 0 || measures.psnr < evaluation.measures[evaluation.worst].psnr) {
+            evaluation.worst = index;
             evaluation.worstPhotograph = photograph;
             evaluation.worstPrediction = prediction;
         }
@@ -143,31 +189,41 @@ void judgePhotographs(const Capture& capture, const Truth& truth, const Predicti
 
 } // namespace
 
-HeldOutEvaluation evaluateHeldOut(const Capture& capture, const AcquireOptions& options,
-                                  const std::vector<RelightingBaseline>& baselines, const Progress& progress)
+HeldOutEvaluation evaluateHeldOut(const Capture& capture, AcquireOptions options,
+                                  const std::vector<RelightingBaseline>& baselines, const Progress& progress,
+                                  size_t rounds)
 {
     HeldOutEvaluation evaluation;
     const Rig rig = calibrateLights(capture, options.calibration);
-    const std::vector<size_t> heldOut = heldOutOf(capture.photographs.size(), options.lights.heldOutEvery);
-    const auto start = std::chrono::steady_clock::now();
-    evaluation.acquisition = acquire(capture, options, progress);
-    evaluation.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    const std::vector<size_t> given = chosenLights(rig.lights, options.lights);
-    evaluation.given = given.size();
-    for (const size_t i : heldOut) {
-        evaluation.photographs.push_back(capture.photographs[i].name);
-    }
     const int threads = options.normals.threads;
-    const Truth truth = readTruth(capture, rig, heldOut, given, threads);
-    const Surface& surface = evaluation.acquisition.surface;
-    const Predictions predicted = predictBySurface(surface, truth.heldOut, truth.heldOutLights, threads);
-    evaluation.scores.push_back(scoreOf("nacre", truth, predicted));
-    judgePhotographs(capture, truth, predicted, evaluation);
-    evaluation.modelBytes = modelBytes(surface);
-    for (const RelightingBaseline baseline : baselines) {
-        progress("baselines",
-                 static_cast<double>(evaluation.scores.size()) / static_cast<double>(baselines.size() + 1));
-        evaluation.scores.push_back(bestScoreOf(baseline, truth, threads));
+    PooledErrors nacre;
+    nacre.method = "nacre";
+    std::vector<BaselineErrors> others(baselines.begin(), baselines.end());
+    for (size_t round = 0; round < rounds; ++round) {
+        options.lights.heldOutFirst = round;
+        const auto start = std::chrono::steady_clock::now();
+        evaluation.acquisition = acquire(capture, options, progress);
+        evaluation.seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+        const std::vector<size_t> given = chosenLights(rig.lights, options.lights);
+        const std::vector<size_t> heldOut = heldOutOf(capture.photographs.size(), options.lights);
+        evaluation.given = given.size();
+        for (const size_t i : heldOut) {
+            evaluation.photographs.push_back(capture.photographs[i].name);
+        }
+        const Truth truth = readTruth(capture, rig, heldOut, given, options);
+        const Surface& surface = evaluation.acquisition.surface;
+        const Predictions predicted = predictBySurface(surface, truth.heldOut, truth.heldOutLights, threads);
+        nacre.add(truth, predicted);
+        judgePhotographs(capture, truth, predicted, evaluation);
+        for (size_t i = 0; i < others.size(); ++i) {
+            progress("baselines", static_cast<double>(i) / static_cast<double>(others.size()));
+            others[i].add(truth, threads);
+        }
+    }
+    evaluation.modelBytes = modelBytes(evaluation.acquisition.surface);
+    evaluation.scores.push_back(nacre.score());
+    for (const BaselineErrors& baseline : others) {
+        evaluation.scores.push_back(baseline.best());
     }
     return evaluation;
 }

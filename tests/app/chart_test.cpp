@@ -29,9 +29,20 @@ TEST(ChartCommand, WritesTablesPicturesAndOneReport)
 {
     const TempFolder folder;
     const std::string output = (folder / "charts").string();
-    std::vector<std::string> arguments = {
-        "chart", makeCapture(folder), "-o", output, "--methods", "least-squares,consensus", "--lights", "all,6", "--k",
-        "25"};
+    std::vector<std::string> arguments = {"chart",
+                                          makeCapture(folder),
+                                          "-o",
+                                          output,
+                                          "--methods",
+                                          "least-squares,consensus",
+                                          "--lights",
+                                          "all,6",
+                                          "--k",
+                                          "25",
+                                          "--parts",
+                                          "normals,brdf",
+                                          "--write-order",
+                                          (folder / "order.inc").string()};
     const ProgramRun run = runNacre(arguments);
     ASSERT_EQ(run.exitCode, 0) << run.err;
     EXPECT_NE(run.err.find("settings left"), std::string::npos) << run.err;
@@ -39,6 +50,7 @@ TEST(ChartCommand, WritesTablesPicturesAndOneReport)
     EXPECT_EQ(linesOf(readTextFile(folder / "charts" / "normals.csv")), 1u + 4);
     EXPECT_EQ(linesOf(readTextFile(folder / "charts" / "brdf.csv")), 1u + 18);
     EXPECT_NE(readTextFile(folder / "charts" / "report.html").find("</html>"), std::string::npos);
+    EXPECT_NE(readTextFile(folder / "order.inc").find("{NormalMethod::"), std::string::npos);
     size_t pictures = 0;
     for (const auto& entry : fs::directory_iterator(folder / "charts")) {
         pictures += entry.path().extension() == ".svg";
@@ -69,6 +81,47 @@ TEST(ChartCommand, LeavesWhatIsFinishedWhenItIsInterrupted)
     EXPECT_NE(html.find("</html>"), std::string::npos);
 }
 
+// The header stays, so that it is found out only when pixels are read.
+void cutInHalf(const fs::path& file)
+{
+    fs::resize_file(file, fs::file_size(file) / 2);
+}
+
+TEST(ChartCommand, APhotographThatCannotBeReadCostsNothingThatIsFinished)
+{
+    const TempFolder folder;
+    const std::string good = makeCapture(folder), bad = (folder / "bad").string();
+    fs::copy(good, bad, fs::copy_options::recursive);
+    cutInHalf(fs::path(bad) / "object_05.png");
+    const ProgramRun run = runNacre({"chart", bad, good, "-o", (folder / "charts").string(), "--parts", "normals,brdf",
+                                     "--methods", "least-squares", "--lights", "all", "--k", "25"});
+    EXPECT_EQ(run.exitCode, 3);
+    EXPECT_NE(run.err.find("object_05.png"), std::string::npos) << run.err;
+    EXPECT_EQ(linesOf(readTextFile(folder / "charts" / "normals.csv")), 1u + 1);
+    EXPECT_EQ(linesOf(readTextFile(folder / "charts" / "brdf.csv")), 1u + 18);
+    const std::string html = readTextFile(folder / "charts" / "report.html");
+    EXPECT_NE(html.find("Ended before its time"), std::string::npos);
+    EXPECT_NE(html.find("object_05.png"), std::string::npos);
+}
+
+TEST(ChartCommand, DrawsFramesByEveryPath)
+{
+    const TempFolder folder;
+    const ProgramRun run = runNacre({"chart", makeCapture(folder), "-o", (folder / "charts").string(), "--parts",
+                                     "rendering", "--frame-lights", "2", "--frame-size", "160x96"});
+    ASSERT_EQ(run.exitCode, 0) << run.err;
+    const std::string csv = readTextFile(folder / "charts" / "rendering.csv");
+    EXPECT_GE(linesOf(csv), 1u + 6) << "direct, the measured ball and most of the others, which may be too large";
+    EXPECT_NE(csv.find(",direct,0,0,2,"), std::string::npos) << csv;
+    EXPECT_NE(csv.find(",ball,64,320,2,"), std::string::npos) << csv;
+    size_t defaults = 0;
+    for (size_t at = 0; (at = csv.find(",yes\n", at)) != std::string::npos; ++at) {
+        ++defaults;
+    }
+    EXPECT_EQ(defaults, 1u);
+    EXPECT_TRUE(fs::exists(folder / "charts" / "sphere-rendering-moved.svg"));
+}
+
 TEST(ChartCommand, RefusesWhatItDoesNotKnow)
 {
     const TempFolder folder;
@@ -93,6 +146,9 @@ TEST(ChartCommand, RefusesWhatItDoesNotKnow)
     expectRefusal({"--lights", "2"}, 2, "--lights 2");
     expectRefusal({"--k", "0"}, 2, "--k 0");
     expectRefusal({"--k", "513"}, 2, "--k 513");
+    expectRefusal({"--frame-lights", "0"}, 2, "--frame-lights 0");
+    expectRefusal({"--frame-size", "0x9"}, 2, "--frame-size");
+    expectRefusal({"--parts", "normals", "--write-order", "o.inc"}, 2, "--write-order");
 }
 
 TEST(EvaluateCommand, TellsPhotographsNormalsBytesAndShowsTheWorst)

@@ -8,6 +8,7 @@
 
 #include "evaluation/chart_default.h"
 #include "evaluation/chart_labels.h"
+#include "evaluation/chart_tables.h"
 
 namespace nacre {
 namespace {
