@@ -1,17 +1,15 @@
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <cstring>
 #include <functional>
 #include <memory>
 
 #include <fmt/format.h>
-#include <glm/geometric.hpp>
 #include <nlohmann/json.hpp>
 
+#include "app/bench_surfaces.h"
 #include "app/commands.h"
 #include "app/destinations.h"
-#include "app/size_argument.h"
 #include "engine/gpu/floor_pass.h"
 #include "engine/gpu/renderer.h"
 #include "engine/scene/brdf_tabulation.h"
@@ -23,6 +21,8 @@ namespace nacre {
 
 namespace {
 
+constexpr int kCapturedLights = 36; // of the residual layer
+
 struct BenchArguments {
     std::vector<std::string> sizes = {"1280x720", "1920x1080", "3840x2160"};
     std::vector<int> lights = {1, 4, 16, 256};
@@ -30,6 +30,7 @@ struct BenchArguments {
     int mostDirectLights = 16; // a direct frame under more takes seconds
     float alpha = 0.3f;
     bool shadows = false; // of direct frames
+    int residual = 40;    // components
     bool bake = false;    // instead of frames
     std::string device;
     std::filesystem::path json;
@@ -65,63 +66,6 @@ Measured measured(int repeats, const std::function<void()>& call, const std::fun
         }
     }
     return {median(times), median(ratios)};
-}
-
-// Normals in every pixel, in waves: neighbours differ as on a real surface.
-NormalMap wavyNormals(int width, int height)
-{
-    NormalMap map(width, height);
-    for (int y = 0; y < height; ++y) {
-        for (int x = 0; x < width; ++x) {
-            const float slopeX = 1.3f * std::sin(0.021f * x + 2 * std::sin(0.003f * y));
-            const float slopeY = 1.3f * std::sin(0.017f * y);
-            map.normals[map.index(x, y)] = glm::normalize(glm::vec3(slopeX, slopeY, 1));
-            map.confidence[map.index(x, y)] = 1;
-        }
-    }
-    return map;
-}
-
-// Waves with the slopes of wavyNormals, nearly: what shadows cost does not depend on where they fall.
-Image wavyHeight(int width, int height)
-{
-    Image waves(width, height, 1);
-    for (int y = 0; y < height; ++y) {
-        for (int x = 0; x < width; ++x) {
-            waves.at(x, y) = 62 * std::cos(0.021f * x + 2 * std::sin(0.003f * y)) - 76 * std::cos(0.017f * y);
-        }
-    }
-    return waves;
-}
-
-// As plain as can be: one material, no albedo factors; or with everything: four materials, factors per pixel.
-Surface benchSurface(const PictureSize& size, const Material& material, bool modulated)
-{
-    Surface surface = transferredSurface(wavyNormals(size.width, size.height), material);
-    if (!modulated) {
-        return surface;
-    }
-    surface.materials.assign(4, material);
-    surface.albedo = Image(size.width, size.height, 3);
-    for (size_t i = 0; i < surface.labels.size(); ++i) {
-        surface.labels[i] = static_cast<uint8_t>(i / 61 % 4);
-        for (size_t c = 0; c < 3; ++c) {
-            surface.albedo.values[3 * i + c] = 0.5f + 0.01f * static_cast<float>((i + 7 * c) % 100);
-        }
-    }
-    return surface;
-}
-
-// `turn` moves every light a little, so that every ball is out of date.
-std::vector<Light> benchLights(int count, int turn)
-{
-    std::vector<Light> lights;
-    for (int i = 0; i < count; ++i) {
-        const float azimuth = 2.3999632f * i + 0.01f * turn, slope = 0.9f * std::sqrt((i + 0.5f) / count);
-        lights.push_back({glm::normalize(glm::vec3(slope * std::cos(azimuth), slope * std::sin(azimuth), 1)),
-                          glm::vec3(1.0f / count)});
-    }
-    return lights;
 }
 
 class Bench {
@@ -193,10 +137,51 @@ private:
                 });
             }
         }
+        if (arguments_.residual > 0) {
+            measureResidual(renderer, surface, prefix);
+        }
         if (arguments_.shadows) {
             measureShadows(renderer, surface, prefix, floor);
         }
     }
+
+    // Frames with a residual layer, each beside the same frame without one; the layer costs the same under any lights.
+    void measureResidual(Renderer& without, Surface surface, const std::string& prefix)
+    {
+        const int lights = arguments_.lights.front();
+        const double before = static_cast<double>(without.deviceBytes());
+        const int toneCurve = isPlain(surface) ? kToneSrgb : kToneFilmic;
+        surface.residual = benchResidual(surface, arguments_.residual, kCapturedLights);
+        Renderer with(context_);
+        with.setSurface(std::move(surface), without.ballSizes());
+        with.setDisplay({.toneCurve = toneCurve});
+        for (const RenderPath path : {RenderPath::ball, RenderPath::direct}) {
+            if (path == RenderPath::direct && lights > arguments_.mostDirectLights) {
+                continue;
+            }
+            for (Renderer* renderer : {&with, &without}) {
+                renderer->setLights(benchLights(lights, 0));
+                renderer->setPath(path);
+            }
+            const auto draw = [](Renderer& renderer) {
+                renderer.forgetPicture();
+                renderer.drawPicture();
+            };
+            const bool isBall = path == RenderPath::ball;
+            const Measured found = measured(
+                isBall ? arguments_.repeats : slowRepeats(), [&] { draw(with); }, [&] { draw(without); });
+            const std::string name =
+                fmt::format("{}.{}lights.residual{}Frame", prefix, lights, isBall ? "Ball" : "Direct");
+            results_[name + "Ms"] = found.ms;
+            results_[name + "PerFrameWithout"] = found.perFloor;
+            fmt::print("  {:<36}{:9.2f}  ({:.2f} times the frame without)\n",
+                       fmt::format("{} frame, {} components", isBall ? "ball" : "direct", arguments_.residual),
+                       found.ms, found.perFloor);
+        }
+        results_[prefix + ".residualDeviceMiB"] = (static_cast<double>(with.deviceBytes()) - before) / 1048576.0;
+    }
+
+    int slowRepeats() const { return std::max(1, arguments_.repeats / 5); }
 
     void measureShadows(Renderer& renderer, Surface surface, const std::string& prefix,
                         const std::function<void()>& floor)
@@ -225,7 +210,7 @@ private:
                 const std::function<void()>& call)
     {
         const bool isSlow = name.ends_with("irectFrameMs") || name.ends_with("horizonBakeMs");
-        const int repeats = isSlow ? std::max(1, arguments_.repeats / 5) : arguments_.repeats;
+        const int repeats = isSlow ? slowRepeats() : arguments_.repeats;
         const Measured found = measured(repeats, call, floor);
         results_[name] = found.ms;
         if (floor) {
@@ -263,6 +248,10 @@ void runBench(const BenchArguments& arguments)
             throw Error("", fmt::format("--lights {} is out of range", count), "1 to 100000", Error::kUsage);
         }
     }
+    if (arguments.residual < 0 || arguments.residual > kMostResidualComponents) {
+        throw Error("", fmt::format("--residual {} is out of range", arguments.residual),
+                    fmt::format("0 to {}", kMostResidualComponents), Error::kUsage);
+    }
     const nlohmann::ordered_json results = arguments.bake ? runBakeBench() : Bench(arguments).run();
     if (!arguments.json.empty()) {
         writeTextFile(arguments.json, results.dump(2) + "\n");
@@ -285,6 +274,10 @@ void addBenchCommand(CLI::App& app)
         ->check(CLI::Range(0.001f, 1.0f))
         ->capture_default_str();
     command->add_flag("--shadows", arguments->shadows, "Direct frames with cast shadows as well");
+    command
+        ->add_option("--residual", arguments->residual,
+                     "Frames with a residual layer of so many components as well (0: none), against those without")
+        ->capture_default_str();
     command->add_flag("--bake", arguments->bake,
                       "Instead of frames: a table from a million samples, against asking for their neighbours alone");
     command->add_option("--device", arguments->device, "Vulkan device: number or part of its name, see nacre info");

@@ -22,7 +22,7 @@ constexpr double kTruncationShare =
 // The cost of judging grows with the square of the lights.
 size_t samplePixels(size_t lights)
 {
-    return std::clamp<size_t>(size_t{25'000'000} / (lights * lights), 512, 4096);
+    return std::clamp<size_t>(size_t{25'000'000} / (lights * lights), 512, 2048);
 }
 
 std::string whyNoLayer(const std::vector<Light>& lights, const std::vector<glm::vec2>& nodes)
@@ -125,7 +125,8 @@ size_t shadedPixels(const Surface& surface)
 ResidualLayer estimateResidual(const Surface& surface, const ResidualOptions& options, const EachBlock& eachBlock,
                                ResidualReport& report)
 {
-    report = {.choice = options.choice};
+    report = ResidualReport();
+    report.choice = options.choice;
     std::vector<Light> lights;
     std::vector<glm::vec2> nodes;
     for (const CapturedLight& light : surface.lights) {

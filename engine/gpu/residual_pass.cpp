@@ -18,7 +18,7 @@ constexpr std::array kBindings = {
 ResidualPass::ResidualPass(const Context& context)
     : context_(context), nearest_(makeSampler(context, VK_FILTER_NEAREST)),
       weights_(context, sizeof(ResidualWeights), VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT),
-      noComponents_(uploadLayers(context, {1, 1, 1}, 1, kCodeFormat, kNoCodes))
+      noComponents_(uploadLayers(context, {1, 1, 1}, 1, kIntegersFormat, kNoCodes))
 {
 }
 

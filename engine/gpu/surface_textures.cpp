@@ -66,8 +66,8 @@ PixelTextures uploadPixels(const Context& context, const Surface& surface, bool 
                                         surface.horizon.codes);
     }
     if (!surface.residual.empty()) {
-        textures.residual = uploadLayers(context, extent, static_cast<uint32_t>(surface.residual.layers()), kCodeFormat,
-                                         surface.residual.codes);
+        textures.residual = uploadLayers(context, extent, static_cast<uint32_t>(surface.residual.layers()),
+                                         kIntegersFormat, surface.residual.codes);
     }
     return textures;
 }

@@ -17,7 +17,7 @@ struct PixelTextures {
     Texture normals;
     Texture albedo;   // rgb, w = material index; empty where the surface is plain
     Texture horizon;  // an array of azimuths; empty where nothing casts shadows
-    Texture residual; // an array of four components a texel; empty where there is no layer
+    Texture residual; // an array of kComponentsPerTexel a texel; empty where there is no layer
     VkDeviceSize bytes() const { return normals.bytes() + albedo.bytes() + horizon.bytes() + residual.bytes(); }
 };
 

@@ -144,7 +144,7 @@ Texture uploadTexture(const Context& context, VkImageType type, VkExtent3D exten
 Texture uploadLayers(const Context& context, VkExtent3D extent, uint32_t layers, VkFormat format,
                      std::span<const uint8_t> texels)
 {
-    assert(texels.size() == size_t{extent.width} * extent.height * layers * (format == kCodeFormat ? 4 : 1));
+    assert(texels.size() == size_t{extent.width} * extent.height * layers * (format == kIntegersFormat ? 16 : 1));
     Texture texture(context, {.extent = extent,
                               .format = format,
                               .usage = VK_IMAGE_USAGE_TRANSFER_DST_BIT | VK_IMAGE_USAGE_SAMPLED_BIT,

@@ -16,6 +16,9 @@ inline constexpr VkFormat kCodeFormat = VK_FORMAT_R8G8B8A8_UNORM; // codes of th
 // Two channels in [-1, 1].
 inline constexpr VkFormat kPackedNormalFormat = VK_FORMAT_R16G16_SNORM;
 
+// Four channels of 32-bit integers.
+inline constexpr VkFormat kIntegersFormat = VK_FORMAT_R32G32B32A32_UINT;
+
 // One channel in [0, 1].
 inline constexpr VkFormat kByteFormat = VK_FORMAT_R8_UNORM;
 
@@ -53,8 +56,8 @@ private:
 Texture uploadTexture(const Context& context, VkImageType type, VkExtent3D extent, VkFormat format,
                       std::span<const glm::vec4> texels);
 
-// A 2D array of kByteFormat or kCodeFormat for shaders to read, layer by layer. Throws Error beyond the device's
-// limits.
+// A 2D array of kByteFormat or kIntegersFormat, as bytes, for shaders to read, layer by layer. Throws Error beyond the
+// device's limits.
 Texture uploadLayers(const Context& context, VkExtent3D extent, uint32_t layers, VkFormat format,
                      std::span<const uint8_t> texels);
 

@@ -96,9 +96,12 @@ glm::vec3 residualOfPixel(const ResidualLayer& layer, const ResidualWeights& wei
     glm::vec3 sum(weights.offset);
     for (size_t i = 0; i < layer.layers(); ++i) {
         const uint8_t* texel = &layer.codes[(i * layer.pixelCount() + pixel) * kComponentsPerTexel];
-        const glm::vec4* gains = &weights.gains[i * kComponentsPerTexel];
-        sum += residualOfTexel(glm::vec4(texel[0], texel[1], texel[2], texel[3]) / 255.0f, gains[0], gains[1], gains[2],
-                               gains[3]);
+        for (int four = 0; four < kComponentsPerTexel; four += 4) {
+            const uint8_t* codes = texel + four;
+            const glm::vec4* gains = &weights.gains[i * kComponentsPerTexel + four];
+            sum += residualOfFour(glm::vec4(codes[0], codes[1], codes[2], codes[3]) / 255.0f, gains[0], gains[1],
+                                  gains[2], gains[3]);
+        }
     }
     return sum;
 }

@@ -42,7 +42,7 @@ inline bool showsResidual(const glm::vec3& view)
     return view == glm::vec3(0, 0, 1);
 }
 
-// off: the BRDF alone, wholly trusted. alone: what the layer changes, about middle grey.
+// off: the BRDF alone, wholly trusted. alone: the sum over components, about middle grey.
 enum class ResidualUse { on, off, alone };
 
 // What the layer says of one light.

@@ -14,7 +14,7 @@ const int kBindingLights = 3;  // uniform buffer of kLightsPerGroup LightFrame
 const int kBindingInput = 4;   // sampled 2D: what an earlier pass drew (radiance, or balls)
 const int kBindingHorizon = 5; // sampled 2D array: a layer an azimuth, codes of horizon.h / 255
 
-const int kBindingResidual = 6;        // sampled 2D array: codes of four components a texel, see residual.h
+const int kBindingResidual = 6;        // sampled 2D array of integers: codes of components, see residual.h
 const int kBindingResidualWeights = 7; // uniform buffer: ResidualWeights
 
 // Alpha of radiance is cleared to 1 and counts up by what asks for unmeasured directions.

@@ -5,8 +5,8 @@
 #include "glsl.h"
 NACRE_SHARED_BEGIN
 
-const int kComponentsPerTexel = 4;
-const int kMostResidualLayers = 16; // of texels
+const int kComponentsPerTexel = 16; // a byte each of four 32-bit integers
+const int kMostResidualLayers = 4;  // of texels
 
 // The weights under the lights of one frame. Scalar layout.
 struct ResidualWeights {
@@ -15,7 +15,7 @@ struct ResidualWeights {
 };
 
 // Of four components: codes in [0, 1].
-NACRE_FN vec3 residualOfTexel(vec4 codes, vec4 first, vec4 second, vec4 third, vec4 fourth)
+NACRE_FN vec3 residualOfFour(vec4 codes, vec4 first, vec4 second, vec4 third, vec4 fourth)
 {
     return codes.x * vec3(first) + codes.y * vec3(second) + codes.z * vec3(third) + codes.w * vec3(fourth);
 }

@@ -14,6 +14,7 @@
 #include "engine/scene/image.h"
 #include "engine/scene/surface.h"
 #include "engine/scene/whole_file.h"
+#include "tests/support/residual_surface.h"
 #include "tests/support/temp_folder.h"
 
 namespace nacre::test {
@@ -85,6 +86,50 @@ void writePatches(const fs::path& folder)
     saveSurface(folder, surface, false);
 }
 
+// Six smooth patterns, each under lights of its own, nearly as strong as the BRDF, half of which is trusted.
+ResidualLayer smoothResidual(const Surface& surface)
+{
+    constexpr int kComponents = 6;
+    ResidualLayer layer;
+    layer.width = layer.height = kSide;
+    layer.components = kComponents;
+    layer.trust = 0.5f;
+    layer.low.assign(kComponents, -0.12f);
+    layer.high.assign(kComponents, 0.14f);
+    for (const CapturedLight& light : surface.lights) {
+        layer.nodes.push_back(lightPlanePoint(light.light.direction));
+    }
+    for (size_t i = 0; i < kComponents * layer.terms(); ++i) {
+        const float x = 1.7f * static_cast<float>(i);
+        const bool isKernel = i % layer.terms() < layer.nodes.size();
+        layer.weights.push_back((isKernel ? 0.04f : 0.14f) * glm::vec3(std::sin(x), std::sin(x + 1), std::sin(x + 2)));
+    }
+    layer.codes.resize(layer.layers() * layer.pixelCount() * kComponentsPerTexel);
+    for (size_t i = 0; i < layer.codes.size(); ++i) {
+        const size_t texel = i / kComponentsPerTexel, pixel = texel % layer.pixelCount();
+        const auto k = static_cast<float>(texel / layer.pixelCount() * kComponentsPerTexel + i % kComponentsPerTexel);
+        const auto x = static_cast<float>(pixel % kSide), y = static_cast<float>(pixel / kSide);
+        const float wave = std::sin((0.05f + 0.01f * k) * (std::cos(k) * x + std::sin(k) * y) + k);
+        layer.codes[i] = static_cast<uint8_t>(127.5f + 127 * wave);
+    }
+    return layer;
+}
+
+void writeShaded(const fs::path& folder)
+{
+    const NormalMap normals = viewOf(bumpySolid(), kSide, kSide, 0).normals;
+    Surface surface = transferredSurface(normals, satin(kCopper));
+    surface.albedo = Image(kSide, kSide, 3);
+    for (int y = 0; y < kSide; ++y) {
+        for (int x = 0; x < kSide; ++x) {
+            surface.albedo.setRgb(x, y, albedoFactor(x, y));
+        }
+    }
+    surface.lights = ringOfLights(9);
+    surface.residual = smoothResidual(surface);
+    saveSurface(folder, surface, false);
+}
+
 // Yarns over and under in turn, their twist, a little drape; wovenCloth is another matter, whose looks may change.
 NormalMap plainWeave(int width, int height)
 {
@@ -148,6 +193,7 @@ void writeGoldenInputs(const fs::path& state)
         {"cloth.exr", [&] { saveNormalMap(folder / "cloth.exr", plainWeave(192, 128)); }},
         {"head.exr", [&] { saveNormalMap(folder / "head.exr", statueHead(176, 176).normals); }},
         {"patches.nacre", [&] { writePatches(folder / "patches.nacre"); }},
+        {"shaded.nacre", [&] { writeShaded(folder / "shaded.nacre"); }},
         {"copper.nacre", [&] { writeSatin(folder / "copper.nacre", kCopper); }},
         {"linen.nacre", [&] { writeSatin(folder / "linen.nacre", kLinen); }},
         {"jade.nacre", [&] { writeSatin(folder / "jade.nacre", kJade); }},

@@ -81,6 +81,29 @@ bool takeLastLabelForFirst(Scene& scene)
     return last > 0;
 }
 
+bool dropResidual(Scene& scene)
+{
+    const bool had = !scene.surface.residual.empty();
+    scene.surface.residual = {};
+    return had;
+}
+
+bool trustBrdfWholly(Scene& scene)
+{
+    scene.surface.residual.trust = 1;
+    return !scene.surface.residual.empty();
+}
+
+// The pictures of the first two exchanged, which lie side by side in each texel.
+bool exchangeComponents(Scene& scene)
+{
+    ResidualLayer& layer = scene.surface.residual;
+    for (size_t pixel = 0; layer.components > 1 && pixel < layer.pixelCount(); ++pixel) {
+        std::swap(layer.codes[pixel * kComponentsPerTexel], layer.codes[pixel * kComponentsPerTexel + 1]);
+    }
+    return layer.components > 1;
+}
+
 Image withoutGamma(const Image& picture)
 {
     Image linear = picture;
@@ -122,7 +145,10 @@ const std::vector<SceneMutant>& sceneMutants()
                                                      {"lights upside down", flipLights},
                                                      {"cosine dropped", dropCosine},
                                                      {"albedo ignored", ignoreAlbedo},
-                                                     {"one label taken for another", takeLastLabelForFirst}};
+                                                     {"one label taken for another", takeLastLabelForFirst},
+                                                     {"residual layer dropped", dropResidual},
+                                                     {"BRDF trusted wholly", trustBrdfWholly},
+                                                     {"components exchanged", exchangeComponents}};
     return mutants;
 }
 
