@@ -1,7 +1,7 @@
 #include "app/captured_photographs.h"
 
 #include <algorithm>
-#include <array>
+#include <atomic>
 #include <memory>
 
 #include <fmt/format.h>
@@ -11,6 +11,7 @@
 #include "acquisition/normals/verdicts.h"
 #include "engine/scene/error.h"
 #include "engine/scene/measures.h"
+#include "engine/scene/parallel_for.h"
 #include "engine/scene/surface.h"
 
 namespace nacre {
@@ -20,11 +21,14 @@ namespace {
 constexpr size_t kBlockBytes = size_t{32} << 20; // small enough that progress is seen
 constexpr size_t kMostBytes = size_t{2} << 30;   // that a window may hold
 constexpr size_t kPeakValues = 1 << 20;          // of all, evenly, for the percentile
+constexpr size_t kJudgedAtOnce = 1024;           // pixels
+constexpr float kReadingShare = 0.7f;            // of loading's time, roughly; the rest is judging
 
 struct Held {
     Surface surface;
     Capture capture;
     Observations all;
+    std::vector<uint8_t> verdicts;    // [pixel of all * captured lights + light], of kVerdictKinds
     std::vector<size_t> photographOf; // a captured light; the count of photographs where there is none
     double peak = 1;
 };
@@ -89,17 +93,6 @@ std::shared_ptr<Held> heldOf(const std::filesystem::path& capture, const std::fi
     return held;
 }
 
-void load(Held& held, const std::function<void(float)>& progress, const std::atomic<bool>& isCancelled)
-{
-    held.all = {}; // what a cancelled reading left
-    ObservationReader reader(held.capture, 0, kBlockBytes);
-    for (Observations block; !isCancelled && reader.next(block);) {
-        append(held.all, block);
-        progress(static_cast<float>(held.all.pixels.size()) / static_cast<float>(held.capture.maskPixels));
-    }
-    held.peak = peakOf(held.all);
-}
-
 Image pictureUnder(const Held& held, size_t light)
 {
     Image picture(held.capture.width, held.capture.height, 3);
@@ -116,26 +109,27 @@ Image pictureUnder(const Held& held, size_t light)
     return picture;
 }
 
-const char* nameOf(Verdict verdict)
-{
-    constexpr std::array kNames = {"used", "shadow", "highlight", "saturated"};
-    return kNames[static_cast<size_t>(verdict)];
-}
-
 float meanOf(const glm::vec3& rgb)
 {
     return (rgb.r + rgb.g + rgb.b) / 3;
 }
 
-std::vector<PixelObservation> observationsAt(const Held& held, size_t pixel)
+// kVerdictKinds has a verdict's kinds in their order.
+uint8_t kindOf(Verdict verdict)
 {
-    const auto found = std::lower_bound(held.all.pixels.begin(), held.all.pixels.end(), pixel);
+    static_assert(static_cast<size_t>(Verdict::saturated) + 1 == kVerdictKinds.size());
+    return static_cast<uint8_t>(verdict);
+}
+
+// What the photographs show of the p-th pixel that was read, judged by the surface's own model.
+std::vector<PixelObservation> judged(const Held& held, size_t p)
+{
     const Surface& surface = held.surface;
+    const size_t pixel = held.all.pixels[p];
     const uint8_t label = surface.labels[pixel];
-    if (found == held.all.pixels.end() || *found != pixel || label >= surface.materials.size()) {
+    if (label >= surface.materials.size()) {
         return {};
     }
-    const auto p = static_cast<size_t>(found - held.all.pixels.begin());
     const glm::vec3& n = surface.normals.normals[pixel];
     glm::vec3 a(1);
     for (int c = 0; c < 3 && !surface.albedo.values.empty(); ++c) {
@@ -143,7 +137,6 @@ std::vector<PixelObservation> observationsAt(const Held& held, size_t pixel)
     }
     std::vector<PixelObservation> observations;
     std::vector<float> observed, predicted;
-    std::vector<uint8_t> saturated;
     for (size_t i = 0; i < surface.lights.size(); ++i) {
         if (held.photographOf[i] >= held.all.lightCount) {
             continue;
@@ -153,15 +146,62 @@ std::vector<PixelObservation> observationsAt(const Held& held, size_t pixel)
         const glm::vec3 f = evaluateTable(surface.materials[label].table, n, light.direction, {0, 0, 1}).value;
         observed.push_back(meanOf(held.all.radianceOf(p)[held.photographOf[i]] / light.irradiance));
         predicted.push_back(nDotL > 0 ? meanOf(a * f) * nDotL : 0.0f);
-        saturated.push_back(held.all.saturatedOf(p)[held.photographOf[i]]);
-        observations.push_back({nDotL, observed.back(), predicted.back(), {}});
+        observations.push_back({i, nDotL, observed.back(), predicted.back(), 0});
     }
     std::vector<Verdict> verdicts(observations.size());
     judge(observed, predicted, verdicts);
     for (size_t i = 0; i < observations.size(); ++i) {
-        observations[i].verdict = nameOf(saturated[i] ? Verdict::saturated : verdicts[i]);
+        const bool isSaturated = held.all.saturatedOf(p)[held.photographOf[observations[i].light]] != 0;
+        observations[i].verdict = kindOf(isSaturated ? Verdict::saturated : verdicts[i]);
     }
     return observations;
+}
+
+std::vector<PixelObservation> observationsAt(const Held& held, size_t pixel)
+{
+    const std::vector<uint32_t>& pixels = held.all.pixels;
+    const auto found = std::lower_bound(pixels.begin(), pixels.end(), pixel);
+    const bool isThere = found != pixels.end() && *found == pixel;
+    return isThere ? judged(held, static_cast<size_t>(found - pixels.begin())) : std::vector<PixelObservation>{};
+}
+
+// Verdicts on all of them: one needs its pixel's others, and stepping through photographs should not wait.
+void judgeAll(Held& held, const std::function<void(float)>& progress, const std::atomic<bool>& isCancelled)
+{
+    const size_t pixels = held.all.pixels.size(), lights = held.surface.lights.size();
+    held.verdicts.assign(pixels * lights, kNotJudged);
+    std::atomic<size_t> done = 0;
+    parallelFor(pixels, kJudgedAtOnce, 0, [&](size_t first, size_t last) {
+        for (size_t p = first; p < last && !isCancelled; ++p) {
+            for (const PixelObservation& observation : judged(held, p)) {
+                held.verdicts[p * lights + observation.light] = observation.verdict;
+            }
+        }
+        done += last - first;
+        progress(kReadingShare + (1 - kReadingShare) * static_cast<float>(done) / static_cast<float>(pixels));
+    });
+}
+
+std::vector<uint8_t> verdictsUnder(const Held& held, size_t light)
+{
+    std::vector<uint8_t> verdicts(held.surface.labels.size(), kNotJudged);
+    for (size_t p = 0; p < held.all.pixels.size(); ++p) {
+        verdicts[held.all.pixels[p]] = held.verdicts[p * held.surface.lights.size() + light];
+    }
+    return verdicts;
+}
+
+void load(Held& held, const std::function<void(float)>& progress, const std::atomic<bool>& isCancelled)
+{
+    held.all = {}; // what a cancelled reading left
+    ObservationReader reader(held.capture, 0, kBlockBytes);
+    for (Observations block; !isCancelled && reader.next(block);) {
+        append(held.all, block);
+        const auto share = static_cast<float>(held.all.pixels.size()) / static_cast<float>(held.capture.maskPixels);
+        progress(kReadingShare * share);
+    }
+    held.peak = peakOf(held.all);
+    judgeAll(held, progress, isCancelled);
 }
 
 } // namespace
@@ -173,6 +213,7 @@ Photographs photographsOf(const std::filesystem::path& capture, const std::files
             .size = [=] { return glm::ivec2(held->capture.width, held->capture.height); },
             .picture = [=](size_t light) { return pictureUnder(*held, light); },
             .observations = [=](size_t pixel) { return observationsAt(*held, pixel); },
+            .verdicts = [=](size_t light) { return verdictsUnder(*held, light); },
             .peak = [=] { return held->peak; }};
 }
 

@@ -5,6 +5,8 @@
 #include "app/commands.h"
 #include "app/render_output.h"
 #include "app/render_scene.h"
+#include "engine/scene/scene_names.h"
+#include "engine/scene/scene_residual.h"
 
 namespace nacre {
 
@@ -50,6 +52,9 @@ void report(const Scene& scene, Renderer& renderer, const RenderArguments& argum
                renderer.deviceBytes() / 1048576.0);
     if (!scene.surface.horizon.empty()) {
         fmt::print("shadows      cast by the height, {} azimuths\n", scene.surface.horizon.azimuths);
+    }
+    if (hasResidualFrom(scene.surface, scene.view)) {
+        fmt::print("residual     {} components, {}\n", scene.surface.residual.components, nameOf(output.residual));
     }
     if (output.isExposed()) {
         fmt::print("exposure     {:+.2f} stops{}\n", rendered.stops, arguments.exposure ? "" : " (automatic)");
@@ -116,6 +121,9 @@ void addRenderCommand(CLI::App& app)
     command->add_option("--show", arguments->show,
                         "picture, normals, labels, coverage (stripes where something unmeasured is asked for), theta-h "
                         "or theta-d (of the brightest light) [picture]");
+    command->add_option("--residual", arguments->residual,
+                        "What the captured surface shows beyond its BRDF, where acquire kept it: on, off, or alone "
+                        "about middle grey [on]");
     command->add_flag_function(
         "--shadows,!--no-shadows", [arguments](int64_t count) { arguments->shadows = count > 0; },
         "The height casts shadows, where NAME.nacre has one; a captured surface's is integrated from its normals");

@@ -9,6 +9,7 @@
 #include "engine/scene/animation_file.h"
 #include "engine/scene/error.h"
 #include "engine/scene/scene_names.h"
+#include "engine/scene/scene_residual.h"
 
 namespace nacre {
 namespace fs = std::filesystem;
@@ -88,9 +89,17 @@ void checkLook(const RenderArguments& arguments, const RenderOutput& output)
     if (arguments.exposure && !std::isfinite(*arguments.exposure)) {
         throw Error("", "--exposure is not finite", "a number of stops", Error::kUsage);
     }
+    if (output.show == Show::verdicts) {
+        throw Error("", "--show verdicts needs the photographs", "nacre view SURFACE --capture FOLDER --show verdicts",
+                    Error::kUsage);
+    }
     if (output.isRadiance && output.show != Show::picture) {
         throw Error(arguments.output, "is radiance, which has no false colours", "--show with .png or .webp",
                     Error::kUsage);
+    }
+    if (output.isRadiance && output.residual == ResidualUse::alone) {
+        throw Error(arguments.output, "is radiance, which is not drawn about middle grey",
+                    "--residual alone with .png or .webp", Error::kUsage);
     }
 }
 
@@ -113,6 +122,7 @@ RenderOutput checkedOutput(const RenderArguments& arguments)
     output.path = pathFromArgument(arguments.path);
     output.toneCurve = toneCurveFromName(arguments.tone);
     output.show = showFromName(arguments.show);
+    output.residual = residualUseFromName(arguments.residual);
     output.isRadiance = extension == ".exr";
     output.isAnimation = extension == kAnimation;
     checkLook(arguments, output);
@@ -133,10 +143,12 @@ RenderedOutput renderFrames(Renderer& renderer, const RenderArguments& arguments
     RenderedOutput rendered{.first = fileOfFrame(arguments.output, 0, output.frames)};
     renderer.setPath(output.path);
     renderer.setShow(output.show);
+    renderer.setResidual(residualOfExposure(output.residual));
     if (output.isExposed()) {
         rendered.stops = arguments.exposure ? *arguments.exposure : commonExposure(renderer, output, scene.lights);
         renderer.setDisplay({.exposureStops = rendered.stops, .toneCurve = output.toneCurve});
     }
+    renderer.setResidual(output.residual);
     for (int frame = 0; frame < output.frames; ++frame) {
         renderer.setLights(movedLights(scene.lights, output.motion, frame, output.frames));
         const fs::path file = fileOfFrame(arguments.output, frame, output.frames);

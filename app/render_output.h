@@ -13,6 +13,7 @@ struct RenderOutput {
     RenderPath path = RenderPath::automatic;
     int toneCurve = kToneSrgb;
     Show show = Show::picture;
+    ResidualUse residual = ResidualUse::on;
     bool isRadiance = false;
     bool isAnimation = false;
 

@@ -13,6 +13,8 @@
 #include "engine/scene/coverage.h"
 #include "engine/scene/environment.h"
 #include "engine/scene/error.h"
+#include "engine/scene/scene_names.h"
+#include "engine/scene/scene_residual.h"
 #include "engine/target/mesh_file.h"
 
 namespace nacre {
@@ -109,6 +111,39 @@ std::vector<Light> lightsOf(const RenderArguments& arguments, const std::vector<
     return lights;
 }
 
+Surface measuredFromArguments(const RenderArguments& arguments)
+{
+    return arguments.material.empty() ? loadSurface(arguments.surface) : surfaceOfMaterial(arguments);
+}
+
+// The surface to draw, which keeps the captured lights of the measured one.
+Surface drawnFromArguments(const RenderArguments& arguments, Surface measured, const Context& context)
+{
+    std::vector<CapturedLight> captured = measured.lights;
+    Surface surface = surfaceToDraw(arguments, std::move(measured), context);
+    surface.lights = std::move(captured);
+    return surface;
+}
+
+// The layer is of the captured surface from the front, and knows the lights about the captured ones.
+void noteResidual(const Scene& scene, bool wasMeasured)
+{
+    if (!wasMeasured) {
+        return;
+    }
+    if (!hasResidualFrom(scene.surface, scene.view)) {
+        fmt::print(stderr, "nacre: note: the residual layer is left out: it belongs to the surface's {}\n",
+                   scene.surface.residual.empty() ? "own shape" : "view from the front");
+        return;
+    }
+    const size_t beyond = lightsBeyondResidual(scene.surface.residual, scene.lights);
+    if (beyond > 0) {
+        fmt::print(stderr,
+                   "nacre: note: the residual layer fades out under {} of {} light{}, away from the captured ones\n",
+                   beyond, scene.lights.size(), scene.lights.size() == 1 ? "" : "s");
+    }
+}
+
 std::string percentage(double share)
 {
     return share < 0.001 ? "below 0.1 %" : fmt::format("{:.1f} %", 100 * share);
@@ -147,19 +182,22 @@ glm::vec3 viewFromArguments(const RenderArguments& arguments)
 
 Surface surfaceFromArguments(const RenderArguments& arguments, const Context& context)
 {
-    Surface measured = arguments.material.empty() ? loadSurface(arguments.surface) : surfaceOfMaterial(arguments);
-    std::vector<CapturedLight> captured = measured.lights;
-    Surface surface = surfaceToDraw(arguments, std::move(measured), context);
-    surface.lights = std::move(captured);
-    return surface;
+    return drawnFromArguments(arguments, measuredFromArguments(arguments), context);
 }
 
 Scene sceneFromArguments(const RenderArguments& arguments, const Context& context)
 {
     Scene scene;
     scene.view = viewFromArguments(arguments);
-    scene.surface = surfaceFromArguments(arguments, context);
+    Surface measured = measuredFromArguments(arguments);
+    const bool hasResidual = !measured.residual.empty();
+    const ResidualUse use = residualUseFromName(arguments.residual);
+    scene.surface = drawnFromArguments(arguments, std::move(measured), context);
+    requireResidual(scene.surface, scene.view, use);
     scene.lights = lightsOf(arguments, scene.surface.lights);
+    if (!arguments.quiet && use != ResidualUse::off) {
+        noteResidual(scene, hasResidual);
+    }
     return scene;
 }
 

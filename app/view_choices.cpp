@@ -56,6 +56,14 @@ void addTarget(Choices& choices, const fs::path& path)
     }
 }
 
+void addEnvironment(Choices& choices, const fs::path& path)
+{
+    std::vector<fs::path>& known = choices.environments;
+    if (!path.empty() && std::find(known.begin(), known.end(), path) == known.end()) {
+        known.push_back(path);
+    }
+}
+
 } // namespace
 
 void makeAbsolute(SceneFile& scene)
@@ -63,8 +71,10 @@ void makeAbsolute(SceneFile& scene)
     for (fs::path* path : {&scene.surface, &scene.onto, &scene.environment}) {
         *path = absolutePath(*path);
     }
-    for (fs::path& path : scene.window.targets) {
-        path = absolutePath(path);
+    for (std::vector<fs::path>* paths : {&scene.window.targets, &scene.window.environments}) {
+        for (fs::path& path : *paths) {
+            path = absolutePath(path);
+        }
     }
     scene.material = absoluteSpecification(scene.material);
     scene.window.wipeMaterial = absoluteSpecification(scene.window.wipeMaterial);
@@ -99,6 +109,10 @@ Choices choicesOf(const ViewState& state)
     }
     for (const fs::path& target : state.targets) {
         addTarget(choices, target);
+    }
+    addEnvironment(choices, state.environment);
+    for (const fs::path& environment : state.environments) {
+        addEnvironment(choices, environment);
     }
     return choices;
 }

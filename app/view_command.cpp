@@ -111,6 +111,11 @@ void addViewCommand(CLI::App& app)
         ->allow_extra_args(false);
     command->add_option("--environment", scene.environment, "Light from all around: as render takes it");
     command->add_option("--exposure", scene.exposure, "Stops to begin with (default: automatic)");
+    command->add_option("--show", scene.show,
+                        "To begin with: picture, normals, labels, coverage, theta-h, theta-d or, with --capture, "
+                        "verdicts [picture]");
+    command->add_option("--residual", scene.residual,
+                        "To begin with, what the surface shows beyond its BRDF: on, off or alone [on]");
     command->add_option("--state", scene.state, "A screenshot's state file, or any that render takes");
     command->add_option("--capture", arguments->capture,
                         "Folder of the photographs that SURFACE was measured from, to compare with");

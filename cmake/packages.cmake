@@ -9,6 +9,7 @@ find_package(CLI11 REQUIRED)
 find_package(GTest REQUIRED)
 find_package(assimp REQUIRED)
 find_package(glfw3 REQUIRED)
+find_package(X11) # tests of the window alone; skipped without
 find_package(PkgConfig REQUIRED)
 pkg_check_modules(matio REQUIRED IMPORTED_TARGET matio)
 pkg_check_modules(webp REQUIRED IMPORTED_TARGET libwebpmux libwebp)

@@ -17,7 +17,8 @@ press c; take coverage
 press c w; sleep 2; take wipe
 press w bracketright bracketright bracketright p; take photograph
 press x; take difference
-press x h; take help
+press v; take verdicts
+press v h; take help
 press h Escape
 wait "$window_id"
 window_id=

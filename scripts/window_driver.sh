@@ -1,8 +1,8 @@
 # Sourced by what drives nacre's window under Xvfb with xdotool. $nacre is the program, $work a folder to write to.
 
 # Exit code 77, which CTest counts as skipped, where the tools are missing.
-require_window_tools() {
-    for tool in Xvfb xdotool import compare; do
+require_window_tools() { # [FURTHER TOOLS]
+    for tool in Xvfb xdotool import compare "$@"; do
         command -v "$tool" >/dev/null || { echo "needs $tool (apt.txt)"; exit 77; }
     done
 }
@@ -20,7 +20,8 @@ set_stage() { # NACRE
 
 start_display() { # SIZE such as 1280x720
     mkdir -p "$work"
-    Xvfb -displayfd 3 -screen 0 "$1x24" 3>"$work/display" >/dev/null 2>&1 &
+    rm -f "$work/display"
+    Xvfb -noreset -displayfd 3 -screen 0 "$1x24" 3>"$work/display" >/dev/null 2>&1 &
     xvfb_id=$!
     trap stop_display EXIT
     for _ in $(seq 100); do [ -s "$work/display" ] && break; sleep 0.1; done
@@ -30,7 +31,7 @@ start_display() { # SIZE such as 1280x720
 stop_display() {
     [ -n "${window_id:-}" ] && kill "$window_id" 2>/dev/null
     [ -n "${xvfb_id:-}" ] && kill "$xvfb_id" 2>/dev/null
-    true
+    window_id= xvfb_id=
 }
 
 # A capture, the surface measured from it, and a second shape, made once.
@@ -42,35 +43,33 @@ make_scene() {
 }
 
 open_window() { # ARGUMENTS of nacre view; waits until it has drawn
+    shot_count=$(find "$shots" -name '*.png' | wc -l)
     "$nacre" view "$@" --screenshots "$shots" >"$work/out" 2>"$work/err" &
     window_id=$!
     for _ in $(seq 300); do
         x_window=$(xdotool search --name ' ms a frame$' 2>/dev/null | head -n 1) && [ -n "$x_window" ] && break
         kill -0 "$window_id" 2>/dev/null || { cat "$work/err"; return 1; }
-        sleep 0.1
+        sleep 0.05
     done
-    xdotool windowfocus "$x_window" mousemove 640 340
-    sleep 1
+    xdotool windowfocus --sync "$x_window" mousemove 640 340
+    sleep 0.5
 }
 
-press() { for key in "$@"; do xdotool key "$key"; sleep 0.15; done; }
+# The window takes keys in the order in which they come, so that nothing has to be waited for between them.
+press() { xdotool key "$@"; }
 
-# Presses F12 and leaves the new picture's name in $shot.
-screenshot() {
-    local before
-    before=$(ls "$shots" | wc -l)
-    press F12
-    for _ in $(seq 100); do
-        if [ "$(ls "$shots" | wc -l)" -ge $((before + 2)) ]; then
-            sleep 0.2
-            shot=$(ls "$shots"/*.png | tail -n 1)
-            return
-        fi
-        sleep 0.1
+# Waits for the picture and the state that a key has asked for, and leaves the picture's name in $shot.
+wait_for_screenshot() {
+    shot_count=$((shot_count + 1))
+    shot=$(printf '%s/nacre-%04d.png' "$shots" "$shot_count")
+    for _ in $(seq 500); do
+        [ -e "${shot%.png}.json" ] && return # written last
+        sleep 0.02
     done
-    echo "F12 wrote nothing"; cat "$work/err"
+    echo "no $shot"; cat "$work/err"
     return 1
 }
+screenshot() { press F12; wait_for_screenshot; }
 
 drag() { # BUTTON X Y X Y ...: pressed at the first place, released at the last
     local button=$1
@@ -79,5 +78,5 @@ drag() { # BUTTON X Y X Y ...: pressed at the first place, released at the last
     shift 2
     while [ $# -gt 0 ]; do xdotool mousemove "$1" "$2"; sleep 0.05; shift 2; done
     xdotool mouseup "$button"
-    sleep 0.3
+    sleep 0.1
 }

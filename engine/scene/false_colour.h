@@ -15,7 +15,8 @@ enum class Show {
     labels = kShowLabels,
     coverage = kShowCoverage,
     thetaH = kShowThetaH,
-    thetaD = kShowThetaD
+    thetaD = kShowThetaD,
+    verdicts // on a photograph's observations: of a window that has the photographs, not of the renderer
 };
 
 // What shaders/false_colour.frag is given. The brightest light is the one of the largest sum of irradiance, the first

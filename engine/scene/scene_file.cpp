@@ -35,6 +35,7 @@ template <class Scene, class Visitor> void visitScene(Scene& scene, Visitor&& vi
     visit("frames", scene.frames);
     visit("motion", scene.motion);
     visit("shadows", scene.shadows);
+    visit("residual", scene.residual);
 }
 
 template <class Window, class Visitor> void visitWindow(Window& window, Visitor&& visit)
@@ -43,6 +44,7 @@ template <class Window, class Visitor> void visitWindow(Window& window, Visitor&
     visit("centre", window.centre);
     visit("materials", window.materials);
     visit("targets", window.targets);
+    visit("environments", window.environments);
     visit("wipe-material", window.wipeMaterial);
     visit("wipe-at", window.wipeAt);
 }

@@ -11,9 +11,10 @@ struct WindowFile {
     std::optional<float> zoom;          // screen pixels a pixel of the picture; empty: fitted
     std::vector<float> centre;          // x, y of the picture in the middle of the window, pixels; empty: its middle
     std::vector<std::string> materials; // further ones to choose from, as --material has them
-    std::vector<std::filesystem::path> targets; // further shapes, as --onto has them
-    std::string wipeMaterial;                   // right of the wipe's line, as --material has it; empty: no wipe
-    std::optional<float> wipeAt;                // the line, a share of the picture's width
+    std::vector<std::filesystem::path> targets;      // further shapes, as --onto has them
+    std::vector<std::filesystem::path> environments; // further ones
+    std::string wipeMaterial;                        // right of the wipe's line, as --material has it; empty: no wipe
+    std::optional<float> wipeAt;                     // the line, a share of the picture's width
     bool operator==(const WindowFile&) const = default;
 };
 
@@ -37,6 +38,7 @@ struct SceneFile {
     std::optional<int> frames;
     std::string motion;
     std::optional<bool> shadows{}; // cast by the height
+    std::string residual;
     WindowFile window;
     bool operator==(const SceneFile&) const = default;
 };

@@ -23,6 +23,7 @@ struct Choices {
     std::filesystem::path surface; // that the window shows; empty: a material alone
     std::vector<MaterialChoice> materials;
     std::vector<TargetChoice> targets;
+    std::vector<std::filesystem::path> environments;
     std::vector<CapturedLight> captured;
 };
 

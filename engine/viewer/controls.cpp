@@ -37,21 +37,59 @@ void stepPhotograph(Session& session, const Choices& choices, bool forward)
 {
     const size_t count = choices.captured.size();
     if (count > 0) {
-        const size_t current = session.photograph.value_or(forward ? count - 1 : 0);
+        const auto shown = session.photograph ? session.photograph : shownPhotograph(session.state);
+        const size_t current = shown.value_or(forward ? count - 1 : 0);
         showCapturedLight(session, choices, (current + (forward ? 1 : count - 1)) % count);
+    } else {
+        session.message = "this surface has no captured lights";
+    }
+}
+
+// Whether a photograph is at hand for what the state shows; then its light is the one that shines.
+bool standAtPhotograph(Session& session, const Choices& choices)
+{
+    if (!session.hasPhotographs || choices.captured.empty()) {
+        session.message = "needs the photographs of the surface on its own shape: nacre view SURFACE --capture FOLDER";
+        return false;
+    }
+    const auto shown = session.photograph ? session.photograph : shownPhotograph(session.state);
+    showCapturedLight(session, choices, shown.value_or(0));
+    return true;
+}
+
+void toggleVerdicts(Session& session, const Choices& choices)
+{
+    if (session.state.show == Show::verdicts || standAtPhotograph(session, choices)) {
+        toggleShow(session, Show::verdicts);
     }
 }
 
 void toggleComparison(Session& session, const Choices& choices, Comparison comparison)
 {
-    if (!session.hasPhotographs || choices.captured.empty()) {
+    if (!standAtPhotograph(session, choices)) {
         return;
-    }
-    if (!session.photograph) {
-        showCapturedLight(session, choices, 0);
     }
     session.comparison = session.comparison == comparison ? Comparison::none : comparison;
     session.state.show = Show::picture;
+    if (session.state.residual == ResidualUse::alone) {
+        session.state.residual = ResidualUse::on;
+    }
+}
+
+void stepResidual(Session& session)
+{
+    if (!session.hasResidual) {
+        session.message = "what is drawn has no residual layer: nacre acquire --residual makes one of a capture";
+        return;
+    }
+    switch (session.state.residual) {
+    case ResidualUse::on:
+        return chooseResidual(session, ResidualUse::off);
+    case ResidualUse::off:
+        return chooseResidual(session, ResidualUse::alone);
+    case ResidualUse::alone:
+        return chooseResidual(session, ResidualUse::on);
+    }
 }
 
 void toggleWipe(Session& session, const Choices& choices)
@@ -61,6 +99,8 @@ void toggleWipe(Session& session, const Choices& choices)
         session.state.wipe = {};
     } else if (choices.materials.size() > 1) {
         chooseWipe(session, choices, (chosen.value_or(0) + 1) % choices.materials.size());
+    } else {
+        session.message = "there is one material: drop another one to wipe to";
     }
 }
 
@@ -105,6 +145,10 @@ void act(Session& session, const Choices& choices, Action action, size_t number)
         return toggleShow(session, Show::coverage);
     case Action::labels:
         return toggleShow(session, Show::labels);
+    case Action::verdicts:
+        return toggleVerdicts(session, choices);
+    case Action::residual:
+        return stepResidual(session);
     case Action::wipe:
         return toggleWipe(session, choices);
     case Action::play:
@@ -141,6 +185,8 @@ void chooseMaterial(Session& session, const Choices& choices, size_t material)
     if (material < choices.materials.size()) {
         const size_t target = chosenTarget(session.state, choices).value_or(0);
         session.state = withChoice(session.state, choices, material, target);
+    } else {
+        session.message = "there is no material of this number";
     }
 }
 
@@ -157,6 +203,22 @@ void chooseWipe(Session& session, const Choices& choices, size_t material)
 {
     if (material < choices.materials.size()) {
         session.state.wipe.material = specificationOf(choices, material);
+    }
+}
+
+void chooseEnvironment(Session& session, const Choices& choices, std::optional<size_t> environment)
+{
+    ViewState& state = session.state;
+    leavePhotograph(session);
+    session.light = 0;
+    if (environment && *environment < choices.environments.size()) {
+        state.environment = choices.environments[*environment];
+        state.lights.clear();
+    } else if (!environment && !state.environment.empty()) {
+        state.environment.clear();
+        if (state.lights.empty()) { // something has to light the scene
+            addLight(session);
+        }
     }
 }
 
@@ -205,6 +267,28 @@ void removeLight(Session& session)
         leavePhotograph(session);
         lights.erase(lights.begin() + static_cast<std::ptrdiff_t>(session.light));
         session.light = std::min(session.light, lights.empty() ? 0 : lights.size() - 1);
+    }
+}
+
+// A photograph is compared with the picture, which a layer by itself is not.
+void chooseResidual(Session& session, ResidualUse use)
+{
+    session.state.residual = use;
+    if (session.state.show != Show::coverage) {
+        session.state.show = Show::picture;
+    }
+    if (use == ResidualUse::alone) {
+        session.comparison = Comparison::none;
+    }
+}
+
+void settleShow(Session& session)
+{
+    if (session.state.show == Show::verdicts && !shownPhotograph(session.state)) {
+        session.state.show = Show::picture;
+    }
+    if (session.state.residual == ResidualUse::alone && !session.hasResidual) {
+        session.state.residual = ResidualUse::on;
     }
 }
 

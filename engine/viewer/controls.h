@@ -18,6 +18,8 @@ struct Session {
     Comparison comparison = Comparison::none;
     std::optional<size_t> photograph; // of the captured ones, that was stepped to
     bool hasPhotographs = false;      // pictures of the captured lights are at hand
+    bool hasResidual = false;         // what is drawn has a residual layer, seen from the front
+    std::string message;              // to the user, about what was asked for last
     bool wantsScreenshot = false;
     bool wantsToQuit = false;
 };
@@ -26,13 +28,16 @@ inline constexpr float kExposureStep = 0.25f;     // stops
 inline constexpr float kSecondsAround = 8;        // of the light path
 inline constexpr float kBallRadiusOfDrag = 0.25f; // radius of the ball that a right-drag turns, of the window's height
 
-// What a key does. Keys whose thing is not there (a tenth material, photographs without a capture) do nothing.
+// What a key does. Keys whose thing is not there do nothing but say so.
 void act(Session& session, const Choices& choices, const KeyPress& press);
 void act(Session& session, const Choices& choices, Action action, size_t number = 0);
 
 void chooseMaterial(Session& session, const Choices& choices, size_t material);
 void chooseTarget(Session& session, const Choices& choices, size_t target);
 void chooseWipe(Session& session, const Choices& choices, size_t material);
+
+// In place of all lights; none: a light of one's own.
+void chooseEnvironment(Session& session, const Choices& choices, std::optional<size_t> environment);
 
 // The light stands at the captured one's place and strength, alone.
 void showCapturedLight(Session& session, const Choices& choices, size_t index);
@@ -43,6 +48,12 @@ void pointLight(Session& session, const glm::vec2& disc);
 void dragLight(Session& session, const glm::vec2& moved, float windowHeight);
 void addLight(Session& session);
 void removeLight(Session& session); // the chosen one, unless nothing would light the scene
+
+void chooseResidual(Session& session, ResidualUse use);
+
+// Verdicts are on one photograph: where the state has come to show none, the picture comes back; and so it does from a
+// residual layer by itself, where what is drawn has none.
+void settleShow(Session& session);
 
 // Time passes while the light path plays: lights turn about the viewing axis.
 void play(Session& session, float seconds);

@@ -13,6 +13,21 @@ constexpr std::array kShown = {std::pair("Picture", Show::picture),   std::pair(
                                std::pair("Labels (L)", Show::labels), std::pair("Coverage (C)", Show::coverage),
                                std::pair("theta h", Show::thetaH),    std::pair("theta d", Show::thetaD)};
 
+constexpr std::array kResidual = {std::pair("on", ResidualUse::on), std::pair("off", ResidualUse::off),
+                                  std::pair("alone", ResidualUse::alone)};
+
+void chooseResidualShown(Session& session)
+{
+    ImGui::AlignTextToFramePadding();
+    ImGui::TextUnformatted("Residual (D)");
+    for (const auto& [name, use] : kResidual) {
+        ImGui::SameLine();
+        if (ImGui::RadioButton(name, session.state.residual == use)) {
+            chooseResidual(session, use);
+        }
+    }
+}
+
 } // namespace
 
 void showDisplayPanel(Session& session, const PanelInputs&)
@@ -44,6 +59,9 @@ void showDisplayPanel(Session& session, const PanelInputs&)
         if (i % 2 == 0) {
             ImGui::SameLine(half);
         }
+    }
+    if (session.hasResidual) {
+        chooseResidualShown(session);
     }
 }
 

@@ -12,6 +12,8 @@ enum class Action {
     normals,
     coverage,
     labels,
+    verdicts,
+    residual,
     wipe,
     play,
     reset,

@@ -131,6 +131,27 @@ void showChosen(LightSource& light)
     ImGui::PopItemWidth();
 }
 
+void showEnvironments(Session& session, const Choices& choices)
+{
+    const std::filesystem::path& chosen = session.state.environment;
+    ImGui::PushItemWidth(-0.38f * ImGui::GetWindowWidth());
+    if (ImGui::BeginCombo("Environment", chosen.empty() ? "none" : chosen.stem().c_str())) {
+        if (ImGui::Selectable("none", chosen.empty())) {
+            chooseEnvironment(session, choices, {});
+        }
+        for (size_t i = 0; i < choices.environments.size(); ++i) {
+            if (ImGui::Selectable(choices.environments[i].stem().c_str(), chosen == choices.environments[i])) {
+                chooseEnvironment(session, choices, i);
+            }
+        }
+        ImGui::EndCombo();
+    }
+    if (!chosen.empty()) {
+        ImGui::SliderFloat("Turn", &session.state.environmentTurn, -180, 180, "%.0f\xC2\xB0");
+    }
+    ImGui::PopItemWidth();
+}
+
 } // namespace
 
 void showLightPanel(Session& session, const PanelInputs& inputs, std::vector<PlacedPicture>& placed)
@@ -145,11 +166,8 @@ void showLightPanel(Session& session, const PanelInputs& inputs, std::vector<Pla
     if (session.light < session.state.lights.size()) {
         showChosen(session.state.lights[session.light]);
     }
-    if (!session.state.environment.empty()) {
-        ImGui::Text("Environment %s", session.state.environment.filename().c_str());
-        ImGui::PushItemWidth(-0.38f * ImGui::GetWindowWidth());
-        ImGui::SliderFloat("Turn", &session.state.environmentTurn, -180, 180, "%.0f\xC2\xB0");
-        ImGui::PopItemWidth();
+    if (!inputs.choices.environments.empty()) {
+        showEnvironments(session, inputs.choices);
     }
 }
 

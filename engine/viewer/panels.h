@@ -17,6 +17,7 @@ struct PanelInputs {
     const Texture* ball = nullptr;                    // the material lit as the surface is
     const DrawnSurface* drawn = nullptr;
     const Photographs* photographs = nullptr; // once they are read
+    std::span<const uint8_t> verdicts;        // that are shown
     std::optional<glm::ivec2> pixel;          // under the cursor, or the last that was
     std::string comparisonFigures;            // of the photograph on screen
     float scale = 1;                          // pixels a unit of layout

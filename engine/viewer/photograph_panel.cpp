@@ -4,6 +4,48 @@
 
 namespace nacre {
 
+namespace {
+
+void chooseShown(Session& session, const Choices& choices)
+{
+    const bool isVerdicts = session.state.show == Show::verdicts;
+    const auto choose = [&](const char* name, bool isChosen, Action action) {
+        if (ImGui::RadioButton(name, isChosen) && !isChosen) {
+            act(session, choices, action);
+        }
+    };
+    // What brings the render back is what brought the other in its place.
+    const Action back = isVerdicts                                     ? Action::verdicts
+                        : session.comparison == Comparison::difference ? Action::difference
+                                                                       : Action::photograph;
+    const float second = ImGui::GetCursorPosX() + 0.45f * ImGui::GetContentRegionAvail().x;
+    choose("Render", session.comparison == Comparison::none && !isVerdicts, back);
+    ImGui::SameLine(second);
+    choose("Photograph (P)", session.comparison == Comparison::photograph, Action::photograph);
+    choose("Verdicts (V)", isVerdicts, Action::verdicts);
+    ImGui::SameLine(second);
+    choose("Difference (X)", session.comparison == Comparison::difference, Action::difference);
+}
+
+void showLegend(std::span<const uint8_t> verdicts, float scale)
+{
+    const auto shares = verdictShares(verdicts);
+    for (size_t i = 0; i < shares.size(); ++i) {
+        const VerdictKind& kind = kVerdictKinds[i];
+        const ImVec2 at = ImGui::GetCursorScreenPos();
+        const float side = 0.7f * ImGui::GetFontSize(), drop = 0.2f * ImGui::GetFontSize();
+        ImGui::GetWindowDrawList()->AddRectFilled(
+            {at.x, at.y + drop}, {at.x + side, at.y + drop + side},
+            ImGui::ColorConvertFloat4ToU32({kind.colour.r, kind.colour.g, kind.colour.b, 1}));
+        ImGui::SetCursorPosX(ImGui::GetCursorPosX() + side + 8 * scale);
+        ImGui::Text("%4.1f %% %s", 100 * shares[i], kind.name);
+        ImGui::SameLine();
+        ImGui::TextDisabled("%s", kind.meaning);
+    }
+}
+
+} // namespace
+
 void showPhotographPanel(Session& session, const PanelInputs& inputs)
 {
     const std::vector<CapturedLight>& captured = inputs.choices.captured;
@@ -28,18 +70,10 @@ void showPhotographPanel(Session& session, const PanelInputs& inputs)
     if (!session.hasPhotographs) {
         return;
     }
-    const auto choose = [&](const char* name, Comparison comparison) {
-        if (ImGui::RadioButton(name, session.comparison == comparison) && session.comparison != comparison) {
-            const Action action = comparison == Comparison::difference || (comparison == Comparison::none &&
-                                                                           session.comparison == Comparison::difference)
-                                      ? Action::difference
-                                      : Action::photograph;
-            act(session, inputs.choices, action);
-        }
-    };
-    choose("Render", Comparison::none);
-    choose("Photograph (P)", Comparison::photograph);
-    choose("Difference (X)", Comparison::difference);
+    chooseShown(session, inputs.choices);
+    if (!inputs.verdicts.empty()) {
+        showLegend(inputs.verdicts, inputs.scale);
+    }
     if (!inputs.comparisonFigures.empty()) {
         ImGui::TextWrapped("%s", inputs.comparisonFigures.c_str());
     }

@@ -1,7 +1,6 @@
 #include "engine/viewer/plots.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -14,20 +13,9 @@ namespace {
 constexpr ImU32 kAxis = IM_COL32(110, 110, 115, 255);
 constexpr ImU32 kBack = IM_COL32(22, 22, 24, 255);
 
-struct VerdictColour {
-    const char* verdict;
-    ImU32 colour;
-};
-// As verdicts.png of an acquisition has them, on dark grey.
-constexpr std::array kVerdictColours = {
-    VerdictColour{"used", IM_COL32(235, 235, 235, 255)}, VerdictColour{"shadow", IM_COL32(90, 140, 255, 255)},
-    VerdictColour{"highlight", IM_COL32(250, 210, 60, 255)}, VerdictColour{"saturated", IM_COL32(240, 70, 60, 255)}};
-
-ImU32 colourOf(const std::string& verdict)
+ImU32 colourOf(const glm::vec3& codes)
 {
-    const auto found = std::find_if(kVerdictColours.begin(), kVerdictColours.end(),
-                                    [&](const VerdictColour& c) { return verdict == c.verdict; });
-    return found == kVerdictColours.end() ? kAxis : found->colour;
+    return ImGui::ColorConvertFloat4ToU32({codes.r, codes.g, codes.b, 1});
 }
 
 // A dark box for a plot; answers its top left corner.
@@ -62,19 +50,19 @@ void plotLobe(std::span<const LobeSample> samples, float incidence, float height
     }
     list.AddLine({foot.x - reach, foot.y}, {foot.x + reach, foot.y}, kAxis);
     list.AddLine(foot, place(0, reach), kAxis);
-    list.AddLine(foot, place(-incidence, reach), IM_COL32(255, 214, 90, 255), 2);
+    list.AddLine(foot, place(-incidence, reach), IM_COL32(255, 214, 90, 255), 0.02f * height);
     for (size_t i = 0; i + 1 < samples.size(); ++i) {
         const bool isMeasured = samples[i].isMeasured && samples[i + 1].isMeasured;
         list.AddLine(place(samples[i].angle, reach * meanOf(samples[i].f) / largest),
                      place(samples[i + 1].angle, reach * meanOf(samples[i + 1].f) / largest),
-                     isMeasured ? IM_COL32(120, 220, 140, 255) : IM_COL32(120, 220, 140, 90), 1.5f);
+                     isMeasured ? IM_COL32(120, 220, 140, 255) : IM_COL32(120, 220, 140, 90), 0.014f * height);
     }
     ImGui::TextDisabled("f to %.3g / sr (dim: guessed)", largest);
 }
 
 void plotObservations(std::span<const PixelObservation> observations, float height)
 {
-    const float width = ImGui::GetContentRegionAvail().x, margin = 0.06f * height;
+    const float width = ImGui::GetContentRegionAvail().x, margin = 0.06f * height, tick = 0.027f * height;
     const ImVec2 at = beginPlot(width, height);
     ImDrawList& list = *ImGui::GetWindowDrawList();
     std::vector<float> values;
@@ -90,15 +78,17 @@ void plotObservations(std::span<const PixelObservation> observations, float heig
     list.AddLine(place(0, 0), place(0, largest), kAxis);
     for (const PixelObservation& o : observations) {
         const ImVec2 model = place(o.nDotL, o.predicted), dot = place(o.nDotL, o.observed);
-        list.AddLine({model.x - 3, model.y}, {model.x + 3, model.y}, IM_COL32(120, 220, 140, 160));
-        list.AddCircleFilled(dot, 2.2f, colourOf(o.verdict));
+        list.AddLine({model.x - tick, model.y}, {model.x + tick, model.y}, IM_COL32(120, 220, 140, 160), tick / 3);
+        list.AddCircleFilled(dot, 0.75f * tick, colourOf(kVerdictKinds[o.verdict].colour));
     }
     ImGui::TextDisabled("I / E over n\xC2\xB7l; green: model");
-    for (const VerdictColour& c : kVerdictColours) {
+    for (size_t i = 0; i < kVerdictKinds.size(); ++i) {
+        const VerdictKind& kind = kVerdictKinds[i];
         const auto count = std::count_if(observations.begin(), observations.end(),
-                                         [&](const PixelObservation& o) { return o.verdict == c.verdict; });
+                                         [&](const PixelObservation& o) { return o.verdict == i; });
         if (count > 0) {
-            ImGui::TextColored(ImGui::ColorConvertU32ToFloat4(c.colour), "%d %s", static_cast<int>(count), c.verdict);
+            ImGui::TextColored({kind.colour.r, kind.colour.g, kind.colour.b, 1}, "%d %s", static_cast<int>(count),
+                               kind.name);
             ImGui::SameLine();
         }
     }

@@ -1,5 +1,7 @@
 #include "engine/viewer/scene_source.h"
 
+#include "engine/scene/error.h"
+
 namespace nacre {
 
 namespace {
@@ -15,6 +17,20 @@ std::shared_ptr<const DrawnSurface> drawnSurface(const SceneSource& source, cons
 }
 
 } // namespace
+
+void requireShown(const ViewState& state, const SceneSource& source)
+{
+    if (state.show != Show::verdicts) {
+        return;
+    }
+    if (!source.photographs) {
+        throw Error("", "--show verdicts needs the photographs", "--capture FOLDER with it", Error::kUsage);
+    }
+    if (!shownPhotograph(state)) {
+        throw Error("", "--show verdicts is of one photograph",
+                    "--light captured:N alone, and the surface on its own shape", Error::kUsage);
+    }
+}
 
 SceneFile loadedPart(const ViewState& state)
 {

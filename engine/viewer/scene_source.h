@@ -34,6 +34,9 @@ struct LoadedScene {
     std::shared_ptr<const Environment> environment;
 };
 
+// Throws Error (usage) where the state shows verdicts, its captured lights resolved, and no photograph is at hand.
+void requireShown(const ViewState& state, const SceneSource& source);
+
 // The part of a state that loading depends on: states that share it share what is loaded.
 SceneFile loadedPart(const ViewState& state);
 

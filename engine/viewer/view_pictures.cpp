@@ -5,6 +5,9 @@
 
 #include <glm/trigonometric.hpp>
 
+#include "engine/scene/scene_residual.h"
+#include "engine/viewer/picture_texture.h"
+
 namespace nacre {
 
 std::vector<Light> lightsOfView(const ViewState& state, const Environment* environment,
@@ -31,6 +34,7 @@ void ViewPictures::setScene(const LoadedScene& scene)
         other_->setSurface(scene.other->surface, scene.other->ballSizes);
     }
     scene_ = scene;
+    verdicts_.reset();
 }
 
 void ViewPictures::applyTo(Renderer& renderer, const ViewState& state, const glm::vec3& view) const
@@ -38,7 +42,22 @@ void ViewPictures::applyTo(Renderer& renderer, const ViewState& state, const glm
     renderer.setView(view);
     renderer.setLights(lights_);
     renderer.setDisplay(display_);
-    renderer.setShow(state.show);
+    renderer.setShow(state.show == Show::verdicts ? Show::picture : state.show);
+    renderer.setResidual(state.residual);
+}
+
+void ViewPictures::applyVerdicts(const ViewState& state)
+{
+    const bool isAsked = state.show == Show::verdicts && photographs_ != nullptr;
+    const std::optional<size_t> light = isAsked ? shownPhotograph(state) : std::nullopt;
+    if (!light) {
+        verdicts_.reset();
+    } else if (!verdicts_ || verdicts_->light != *light) {
+        std::vector<uint8_t> ofPixels = photographs_->verdicts(*light);
+        Image picture = verdictPicture(ofPixels, photographs_->size(), size().x, size().y);
+        Texture texture = uploadPicture(context_, picture);
+        verdicts_ = Verdicts{*light, std::move(ofPixels), std::move(picture), std::move(texture)};
+    }
 }
 
 void ViewPictures::apply(ViewState& state, const glm::vec3& view, std::span<const CapturedLight> captured)
@@ -48,6 +67,7 @@ void ViewPictures::apply(ViewState& state, const glm::vec3& view, std::span<cons
     if (!state.exposure) {
         main_.setView(view);
         main_.setLights(lights_);
+        main_.setResidual(residualOfExposure(state.residual));
         state.exposure = main_.automaticExposure();
     }
     display_ = {.exposureStops = *state.exposure, .toneCurve = state.toneCurve};
@@ -55,12 +75,16 @@ void ViewPictures::apply(ViewState& state, const glm::vec3& view, std::span<cons
     if (other_) {
         applyTo(*other_, state, view);
     }
+    applyVerdicts(state);
 }
 
 bool ViewPictures::draw()
 {
     const auto drawn = [&] { return main_.drawnPictures() + (other_ ? other_->drawnPictures() : 0); };
     const size_t before = drawn();
+    if (verdicts_) {
+        return false;
+    }
     main_.drawPicture();
     if (other_) {
         other_->drawPicture();
@@ -77,13 +101,17 @@ glm::ivec2 ViewPictures::size() const
 int ViewPictures::wipeColumn() const
 {
     const int width = size().x;
-    return other_ ? static_cast<int>(std::lround(std::clamp(wipeAt_, 0.0f, 1.0f) * static_cast<float>(width))) : width;
+    return hasWipe() ? static_cast<int>(std::lround(std::clamp(wipeAt_, 0.0f, 1.0f) * static_cast<float>(width)))
+                     : width;
 }
 
 Image ViewPictures::picture()
 {
+    if (verdicts_) {
+        return verdicts_->picture;
+    }
     Image picture = main_.picture();
-    if (other_) {
+    if (hasWipe()) {
         const Image other = other_->picture();
         for (int y = 0; y < picture.height; ++y) {
             for (int x = wipeColumn(); x < picture.width; ++x) {

@@ -14,10 +14,13 @@ public:
     // Lights, exposure (automatic where the state has none, which is then written into it), what is shown.
     void apply(ViewState& state, const glm::vec3& view, std::span<const CapturedLight> captured);
 
+    // Read ones, which verdicts are on; null: none are at hand, and the render stands in their place.
+    void setPhotographs(const Photographs* photographs) { photographs_ = photographs; }
+
     // What has changed since; true where something was drawn.
     bool draw();
-    const Texture& main() const { return main_.drawnPicture(); }
-    const Texture* other() const { return other_ ? &other_->drawnPicture() : nullptr; } // right of the wipe's line
+    const Texture& main() const { return verdicts_ ? verdicts_->texture : main_.drawnPicture(); }
+    const Texture* other() const { return hasWipe() ? &other_->drawnPicture() : nullptr; } // right of the wipe's line
     int wipeColumn() const; // first column of the other; the width where there is none
     // Both in one, codes in [0,1].
     Image picture();
@@ -27,16 +30,29 @@ public:
     const LoadedScene& scene() const { return scene_; }
     std::span<const Light> lights() const { return lights_; }
     const Display& display() const { return display_; }
+    // Of the photograph whose verdicts are shown; empty where none are.
+    std::span<const uint8_t> verdicts() const { return verdicts_ ? verdicts_->ofPixels : std::span<const uint8_t>(); }
     glm::ivec2 size() const;
     Renderer& renderer() { return main_; }
 
 private:
+    struct Verdicts {
+        size_t light; // of the captured ones
+        std::vector<uint8_t> ofPixels;
+        Image picture;
+        Texture texture;
+    };
+
     void applyTo(Renderer& renderer, const ViewState& state, const glm::vec3& view) const;
+    void applyVerdicts(const ViewState& state);
+    bool hasWipe() const { return other_ && !verdicts_; }
 
     const Context& context_;
     Renderer main_;
     std::unique_ptr<Renderer> other_;
     LoadedScene scene_;
+    const Photographs* photographs_ = nullptr;
+    std::optional<Verdicts> verdicts_; // in place of the renders
     std::vector<Light> lights_;
     Display display_;
     float wipeAt_ = 1;

@@ -34,8 +34,10 @@ ViewState viewStateOf(const SceneFile& scene)
                     .show = showFromName(scene.show),
                     .framing = framingOf(scene.window),
                     .shadows = scene.shadows,
+                    .residual = residualUseFromName(scene.residual),
                     .materials = scene.window.materials,
                     .targets = scene.window.targets,
+                    .environments = scene.window.environments,
                     .wipe = {scene.window.wipeMaterial, scene.window.wipeAt.value_or(0.5f)}};
     for (const std::string& text : scene.lights) {
         state.lights.push_back(lightSourceFromText(text));
@@ -62,10 +64,12 @@ SceneFile sceneFileOf(const ViewState& state)
                     .frames = {},
                     .motion = {},
                     .shadows = state.shadows,
+                    .residual = state.residual == ResidualUse::on ? "" : nameOf(state.residual),
                     .window = {.zoom = {},
                                .centre = {},
                                .materials = state.materials,
                                .targets = state.targets,
+                               .environments = state.environments,
                                .wipeMaterial = state.wipe.material,
                                .wipeAt = {}}};
     for (const LightSource& light : state.lights) {
@@ -82,6 +86,16 @@ SceneFile sceneFileOf(const ViewState& state)
         scene.window.wipeAt = state.wipe.at;
     }
     return scene;
+}
+
+std::optional<size_t> shownPhotograph(const ViewState& state)
+{
+    const bool isAlone = state.lights.size() == 1 && state.environment.empty();
+    const bool isOwn = !state.surface.empty() && state.material.empty() && state.onto.empty();
+    if (!isAlone || !isOwn || state.lights[0].captured < 1) {
+        return {};
+    }
+    return static_cast<size_t>(state.lights[0].captured - 1);
 }
 
 void resolveCaptured(ViewState& state, std::span<const CapturedLight> captured)

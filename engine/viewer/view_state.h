@@ -5,6 +5,7 @@
 
 #include "engine/scene/false_colour.h"
 #include "engine/scene/light_source.h"
+#include "engine/scene/residual_layer.h"
 #include "engine/scene/scene_file.h"
 
 namespace nacre {
@@ -40,16 +41,23 @@ struct ViewState {
     std::string path; // as --path has it
     Show show = Show::picture;
     Framing framing;
-    std::optional<bool> shadows;        // cast by the surface's height
+    std::optional<bool> shadows; // cast by the surface's height
+    ResidualUse residual = ResidualUse::on;
     std::vector<std::string> materials; // further ones to choose from
     std::vector<std::filesystem::path> targets;
+    std::vector<std::filesystem::path> environments;
     Wipe wipe;
     bool operator==(const ViewState&) const = default;
 };
 
-// Throws Error (usage) about a light, a tone curve or a thing to show that is not known.
+// Throws Error (usage) about a light, a tone curve, a thing to show or a use of the residual layer that is
+// not known.
 ViewState viewStateOf(const SceneFile& scene);
 SceneFile sceneFileOf(const ViewState& state);
+
+// The captured light that alone lights the surface on its own shape, counted from 0: what a photograph can be held
+// against. Empty where anything else is shown.
+std::optional<size_t> shownPhotograph(const ViewState& state);
 
 // Gives the lights the values of the captured ones that they name, so that they can be moved from there on.
 void resolveCaptured(ViewState& state, std::span<const CapturedLight> captured);

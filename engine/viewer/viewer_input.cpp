@@ -5,7 +5,6 @@
 #include <imgui.h>
 
 #include "engine/scene/error.h"
-#include "engine/viewer/dropped_file.h"
 #include "engine/viewer/screenshot.h"
 #include "engine/viewer/viewer_window.h"
 
@@ -34,7 +33,7 @@ void ViewerWindow::takeEvents(const WindowEvents& events)
     takeMouse(events);
     if (!ImGui::GetIO().WantTextInput) {
         for (const KeyPress& press : events.keys) {
-            message_.clear();
+            session_.message.clear();
             act(session_, choices_, press);
         }
     }
@@ -100,46 +99,54 @@ void ViewerWindow::inspect(const glm::vec2& cursor)
 
 void ViewerWindow::drop(const std::filesystem::path& file)
 {
-    const auto materialOnTarget = [&](const std::string& specification) {
-        choices_.materials.push_back({file.stem().string(), specification});
-        session_.state.materials.push_back(specification);
-        chooseMaterial(session_, choices_, choices_.materials.size() - 1);
-    };
-    message_.clear();
-    switch (kindOf(file)) {
-    case Dropped::surface:
-        return openSurface(file);
-    case Dropped::target:
-        choices_.targets.push_back({file.stem().string(), file});
-        session_.state.targets.push_back(file);
-        return chooseTarget(session_, choices_, choices_.targets.size() - 1);
-    case Dropped::material:
-        return materialOnTarget(file.string());
-    case Dropped::environment:
-        session_.state.environment = file;
-        session_.state.lights.clear();
-        return;
-    case Dropped::state:
-    case Dropped::unknown:
-        message_ = fmt::format("{}: is no surface, material, picture of normals or environment", file.string());
+    session_.message.clear();
+    const Dropped kind = kindOf(file);
+    if (kind == Dropped::surface) {
+        openSurface(file);
+    } else if (kind == Dropped::unknown || kind == Dropped::state) {
+        session_.message = fmt::format("{}: is no surface, material, picture of normals or environment", file.string());
+    } else {
+        Drop undo{choices_, session_.state, {}};
+        choose(kind, file);
+        undo.after = session_.state;
+        drop_ = std::move(undo);
     }
 }
 
-// Of the render as the state has it, whatever stands in its place on the screen.
+// What was dropped joins its list, and is chosen.
+void ViewerWindow::choose(Dropped kind, const std::filesystem::path& file)
+{
+    const std::string name = file.stem().string();
+    if (kind == Dropped::target) {
+        choices_.targets.push_back({name, file});
+        session_.state.targets.push_back(file);
+        chooseTarget(session_, choices_, choices_.targets.size() - 1);
+    } else if (kind == Dropped::material) {
+        choices_.materials.push_back({name, file.string()});
+        session_.state.materials.push_back(file.string());
+        chooseMaterial(session_, choices_, choices_.materials.size() - 1);
+    } else {
+        choices_.environments.push_back(file);
+        session_.state.environments.push_back(file);
+        chooseEnvironment(session_, choices_, choices_.environments.size() - 1);
+    }
+}
+
+// Of what the state shows, in its own size; once it is loaded.
 void ViewerWindow::takeScreenshot()
 {
-    session_.wantsScreenshot = false;
-    if (sceneLoader_.isBusy()) {
-        message_ = "a screenshot once this is loaded";
+    const bool waitsForVerdicts = session_.state.show == Show::verdicts && photographLoader_.isBusy();
+    if (sceneLoader_.isBusy() || waitsForVerdicts) {
         return;
     }
+    session_.wantsScreenshot = false;
     try {
         applyState();
         const std::filesystem::path file = nextScreenshot(options_.screenshots);
         saveScreenshot(file, pictures_.picture(), session_.state);
-        message_ = fmt::format("wrote {} and its state", file.string());
+        session_.message = fmt::format("wrote {} and its state", file.string());
     } catch (const Error& e) {
-        message_ = e.what();
+        session_.message = e.what();
     }
     framesLeft_ = kFramesToSettle;
 }

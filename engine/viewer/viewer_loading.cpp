@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include "engine/scene/error.h"
+#include "engine/scene/scene_residual.h"
 #include "engine/viewer/picture_texture.h"
 #include "engine/viewer/thumbnails.h"
 #include "engine/viewer/viewer_window.h"
@@ -31,6 +32,20 @@ void copyLoadedPart(ViewState& to, const ViewState& from)
     to.environment = from.environment;
 }
 
+// By what differs from what is loaded.
+std::string nameOfLoading(const ViewState& wanted, const ViewState& loaded)
+{
+    std::filesystem::path named = wanted.material.empty() ? wanted.surface : std::filesystem::path(wanted.material);
+    if (wanted.environment != loaded.environment) {
+        named = wanted.environment;
+    } else if (!wanted.onto.empty() && wanted.onto != loaded.onto) {
+        named = wanted.onto;
+    } else if (wanted.wipe.material != loaded.wipe.material) {
+        named = wanted.wipe.material;
+    }
+    return fmt::format("reading {}", named.filename().string());
+}
+
 } // namespace
 
 void ViewerWindow::takeScene(const ViewState& state, const LoadedScene& scene)
@@ -43,7 +58,9 @@ void ViewerWindow::takeScene(const ViewState& state, const LoadedScene& scene)
         pixel_.reset();
     }
     loaded_ = state;
+    drop_.reset();
     session_.hasPhotographs = photographsAreRead_ && state.onto.empty() && !state.surface.empty();
+    session_.hasResidual = hasResidualFrom(scene.main->surface, view_);
     framesLeft_ = kFramesToSettle;
 }
 
@@ -58,25 +75,44 @@ void ViewerWindow::followState()
         sceneLoader_.cancel();
         return;
     }
-    const std::string name = fmt::format(
-        "reading {}", requested_.material.empty() ? requested_.surface.filename().string()
-                                                  : std::filesystem::path(requested_.material).filename().string());
-    sceneLoader_.start(name, [this, state = requested_, choices = choices_, before = loaded_,
-                              scene = pictures_.scene()](Loader::Progress&) {
-        auto loaded = std::make_shared<LoadedScene>(loadScene(source_, state, choices, before, scene));
-        return [this, state, loaded] { takeScene(state, *loaded); };
-    });
+    sceneLoader_.start(
+        nameOfLoading(requested_, loaded_),
+        [this, state = requested_, choices = choices_, before = loaded_, scene = pictures_.scene()](Loader::Progress&) {
+            auto loaded = std::make_shared<LoadedScene>(loadScene(source_, state, choices, before, scene));
+            return [this, state, loaded] { takeScene(state, *loaded); };
+        });
 }
 
-// What is shown stays, and so does what the state says of it.
+// What is shown stays, and so does what the state says of it; what was dropped for it leaves the lists again.
+void ViewerWindow::keepLoaded()
+{
+    ViewState& state = session_.state;
+    if (drop_ && state == drop_->after) {
+        state = drop_->before;
+    } else if (drop_) { // what else was done meanwhile remains
+        state.materials = drop_->before.materials;
+        state.targets = drop_->before.targets;
+        state.environments = drop_->before.environments;
+    }
+    if (drop_) {
+        choices_ = drop_->choices;
+        drop_.reset();
+    }
+    copyLoadedPart(state, loaded_);
+    if (state.lights.empty() && state.environment.empty()) { // something has to light the scene
+        addLight(session_);
+    }
+    requested_ = session_.state;
+    framesLeft_ = kFramesToSettle;
+}
+
 void ViewerWindow::cancelLoading()
 {
-    if (sceneLoader_.isBusy()) {
-        copyLoadedPart(session_.state, loaded_);
-        requested_ = session_.state;
-        sceneLoader_.cancel();
-    } else {
-        photographLoader_.cancel();
+    Loader& loader = sceneLoader_.isBusy() ? sceneLoader_ : photographLoader_;
+    session_.message = fmt::format("cancelled {}", loader.name());
+    loader.cancel();
+    if (&loader == &sceneLoader_) {
+        keepLoaded();
     }
 }
 
@@ -87,10 +123,8 @@ void ViewerWindow::finishLoading()
             framesLeft_ = kFramesToSettle;
         }
     } catch (const Error& e) {
-        message_ = e.what();
-        copyLoadedPart(session_.state, loaded_);
-        requested_ = session_.state;
-        framesLeft_ = kFramesToSettle;
+        session_.message = e.what();
+        keepLoaded();
     }
     try {
         if (thumbnailLoader_.finish()) {
@@ -127,6 +161,7 @@ void ViewerWindow::loadPhotographs()
         photographs.load([&](float share) { progress.share = share; }, progress.isCancelled);
         return [this] {
             photographsAreRead_ = true;
+            pictures_.setPhotographs(&*photographs_);
             session_.hasPhotographs = loaded_.onto.empty() && !loaded_.surface.empty();
         };
     });
@@ -145,10 +180,12 @@ void ViewerWindow::openSurface(const std::filesystem::path& folder)
             thumbnails_.clear();
             triedThumbnails_.clear();
             photographLoader_.cancel();
+            pictures_.setPhotographs(nullptr);
             photographs_.reset(); // they are another surface's
             photographsAreRead_ = false;
             takeScene(state, *loaded);
-            session_ = {.state = state};
+            session_ = {
+                .state = state, .hasResidual = session_.hasResidual, .wantsScreenshot = session_.wantsScreenshot};
             requested_ = state;
             applyState();
             session_.opened = session_.state;

@@ -24,6 +24,7 @@ PanelInputs ViewerWindow::panelInputs()
             .ball = hasBall ? &ball_.drawnPicture() : nullptr,
             .drawn = drawn,
             .photographs = photographsAreRead_ && session_.state.onto.empty() ? &*photographs_ : nullptr,
+            .verdicts = pictures_.verdicts(),
             .pixel = pixel_,
             .comparisonFigures = comparisonFigures_,
             .scale = ui_.scale()};
@@ -91,17 +92,17 @@ void ViewerWindow::showStatus()
     ImGui::Begin("status", nullptr, kFixed | ImGuiWindowFlags_NoScrollbar);
     Loader* busy = sceneLoader_.isBusy() ? &sceneLoader_ : photographLoader_.isBusy() ? &photographLoader_ : nullptr;
     if (busy != nullptr) {
+        if (ImGui::SmallButton("Cancel")) { // leftmost, where it stays whatever the name's length
+            cancelLoading();
+        }
+        ImGui::SameLine();
         const float share = busy->share();
         const float waiting = static_cast<float>(std::fmod(ImGui::GetTime(), 1.0)); // goes round where it is not known
         ImGui::ProgressBar(share > 0 ? share : waiting, {160 * ui_.scale(), 0}, share > 0 ? nullptr : "");
         ImGui::SameLine();
         ImGui::TextUnformatted(busy->name().c_str());
-        ImGui::SameLine();
-        if (ImGui::SmallButton("Cancel")) {
-            cancelLoading();
-        }
-    } else if (!message_.empty()) {
-        ImGui::TextUnformatted(message_.c_str());
+    } else if (!session_.message.empty()) {
+        ImGui::TextUnformatted(session_.message.c_str());
     } else {
         const glm::ivec2 size = pictures_.size();
         ImGui::TextDisabled("%d x %d   zoom %.0f %%   H: help", size.x, size.y,

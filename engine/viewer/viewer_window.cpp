@@ -8,6 +8,7 @@
 #include <imgui.h>
 
 #include "engine/scene/error.h"
+#include "engine/scene/scene_residual.h"
 #include "engine/viewer/comparison.h"
 #include "engine/viewer/picture_texture.h"
 #include "engine/viewer/screenshot.h"
@@ -38,9 +39,9 @@ ViewerWindow::ViewerWindow(const Context& context, ViewState state, Choices choi
       swapchain_(context, window_), ui_(context, window_, swapchain_), pictures_(context), ball_(context),
       choices_(std::move(choices)), photographs_(source.photographs)
 {
-    resolveCaptured(state, choices_.captured);
     view_ = source_.view(sceneFileOf(state));
     takeScene(state, loadScene(source_, state, choices_, {}, {}));
+    requireResidual(pictures_.scene().main->surface, view_, state.residual);
     session_.state = loaded_ = requested_ = state;
     applyState();
     session_.opened = session_.state;
@@ -114,6 +115,7 @@ Framing ViewerWindow::framing() const
 
 void ViewerWindow::applyState()
 {
+    settleShow(session_);
     pictures_.apply(session_.state, view_, choices_.captured);
     const bool isFew = pictures_.lights().size() <= kFewLights;
     ball_.setPath(isFew ? RenderPath::direct : RenderPath::automatic);
@@ -191,6 +193,8 @@ void ViewerWindow::showTitle(double seconds)
 void runViewer(const Context& context, ViewState state, Choices choices, const SceneSource& source,
                const ViewerOptions& options)
 {
+    resolveCaptured(state, choices.captured);
+    requireShown(state, source);
     ViewerWindow(context, std::move(state), std::move(choices), source, options).run();
 }
 
@@ -198,10 +202,20 @@ void viewHeadless(const Context& context, ViewState state, const Choices& choice
                   const std::filesystem::path& output)
 {
     resolveCaptured(state, choices.captured);
+    requireShown(state, source);
     ViewPictures pictures(context);
+    if (state.show == Show::verdicts) {
+        source.photographs->load([](float) {}, false);
+        pictures.setPhotographs(&*source.photographs);
+    }
     pictures.setScene(loadScene(source, state, choices, {}, {}));
-    pictures.apply(state, source.view(sceneFileOf(state)), choices.captured);
+    const glm::vec3 view = source.view(sceneFileOf(state));
+    requireResidual(pictures.scene().main->surface, view, state.residual);
+    pictures.apply(state, view, choices.captured);
     saveScreenshot(output, pictures.picture(), state);
+    if (!pictures.verdicts().empty()) {
+        fmt::print("verdicts     {}\n", describeVerdicts(pictures.verdicts()));
+    }
 }
 
 } // namespace nacre

@@ -3,6 +3,7 @@
 #include <chrono>
 #include <map>
 
+#include "engine/viewer/dropped_file.h"
 #include "engine/viewer/loader.h"
 #include "engine/viewer/panels.h"
 #include "engine/viewer/ui_pass.h"
@@ -12,6 +13,7 @@ namespace nacre {
 
 class ViewerWindow {
 public:
+    // The state's captured lights are resolved, and what it shows can be shown.
     ViewerWindow(const Context& context, ViewState state, Choices choices, const SceneSource& source,
                  const ViewerOptions& options);
     // Until it is closed.
@@ -20,6 +22,10 @@ public:
 private:
     using Clock = std::chrono::steady_clock;
     enum class Drag { none, pan, light, wipe };
+    struct Drop { // the lists and the state around one that is being loaded
+        Choices choices;
+        ViewState before, after;
+    };
 
     // viewer_window.cpp: time and frames
     double waitingTime() const;
@@ -47,6 +53,7 @@ private:
     void drag(const glm::vec2& moved);
     void inspect(const glm::vec2& cursor);
     void drop(const std::filesystem::path& file);
+    void choose(Dropped kind, const std::filesystem::path& file);
     void takeScreenshot();
 
     // viewer_loading.cpp: what is read in the background
@@ -56,6 +63,7 @@ private:
     void loadPhotographs();
     void openSurface(const std::filesystem::path& folder);
     void cancelLoading();
+    void keepLoaded();
     void takeScene(const ViewState& state, const LoadedScene& scene);
 
     const Context& context_;
@@ -76,11 +84,11 @@ private:
     glm::vec3 view_{0, 0, 1};
     ViewState loaded_;    // the state that the pictures' scene was loaded for
     ViewState requested_; // the one that is being loaded
+    std::optional<Drop> drop_;
     std::optional<Photographs> photographs_;
     bool photographsAreRead_ = false;
     std::map<std::string, Texture> thumbnails_;
     std::map<std::string, bool> triedThumbnails_;
-    std::string message_; // of the status line
 
     std::vector<PlacedPicture> placed_;
     std::optional<glm::ivec2> pixel_;

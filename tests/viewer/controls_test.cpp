@@ -1,5 +1,6 @@
 #include "engine/viewer/controls.h"
 
+#include <functional>
 #include <set>
 
 #include <glm/geometric.hpp>
@@ -15,6 +16,7 @@ Choices someChoices()
     return {.surface = kSurface,
             .materials = {{"horse", ""}, {"gold", "/m/gold.binary"}, {"grey", "lambert:0.5"}},
             .targets = {{"horse", ""}, {"cloth", "/t/cloth.exr"}},
+            .environments = {"/e/studio.hdr", "/e/sky.hdr"},
             .captured = {{"a.png", {.direction = {0, 0, 1}}},
                          {"b.png", {.direction = {0.6f, 0, 0.8f}, .irradiance = {1, 2, 3}}},
                          {"c.png", {.direction = {0, 0.6f, 0.8f}}}}};
@@ -150,11 +152,13 @@ TEST(Controls, TargetsKeepTheMaterial)
 
 TEST(Controls, CapturedLightsGoRound)
 {
-    const Session first = after({{']'}});
-    EXPECT_EQ(first.photograph, 0u);
-    EXPECT_EQ(after({{']'}, {']'}}).photograph, 1u);
-    EXPECT_EQ(after({{']'}, {'['}}).photograph, 2u);
-    const Session second = after({{']'}, {']'}});
+    EXPECT_EQ(after({{']'}}).photograph, 1u) << "the first one is what a surface opens with";
+    EXPECT_EQ(after({{'['}}).photograph, 2u);
+    EXPECT_EQ(after({{']'}, {']'}, {']'}}).photograph, 0u);
+    Session moved = opened();
+    pointLight(moved, {0.5f, 0});
+    EXPECT_EQ(after({{']'}}, moved).photograph, 0u) << "from a light that is none of them to the first";
+    const Session second = after({{']'}});
     ASSERT_EQ(second.state.lights.size(), 1u);
     EXPECT_EQ(second.state.lights[0].captured, 2);
     EXPECT_EQ(second.state.lights[0].irradiance, glm::vec3(1, 2, 3));
@@ -172,6 +176,104 @@ TEST(Controls, PhotographsNeedACapture)
     Session moved = after({{'P'}}, session);
     pointLight(moved, {0.5f, 0});
     EXPECT_EQ(moved.comparison, Comparison::none) << "that light was not photographed";
+}
+
+TEST(Controls, VerdictsAreOnThePhotographOnScreen)
+{
+    const Session without = after({{'V'}});
+    EXPECT_EQ(without.state, opened().state);
+    EXPECT_NE(without.message.find("--capture"), std::string::npos) << "no dead key: " << without.message;
+    Session session = opened();
+    session.hasPhotographs = true;
+    EXPECT_EQ(after({{'V'}}, session).state.show, Show::verdicts);
+    EXPECT_EQ(after({{']'}, {'V'}}, session).state.lights[0].captured, 2);
+    EXPECT_EQ(after({{'V'}, {']'}}, session).state.show, Show::verdicts) << "the next one's";
+    EXPECT_EQ(after({{'V'}, {'V'}}, session).state.show, Show::picture);
+    EXPECT_EQ(after({{'V'}, {'N'}}, session).state.show, Show::normals);
+    EXPECT_EQ(after({{'P'}, {'V'}}, session).comparison, Comparison::none);
+    EXPECT_EQ(after({{'V'}, {'P'}}, session).state.show, Show::picture);
+}
+
+TEST(Controls, VerdictsEndWithThePhotograph)
+{
+    Session session = opened();
+    session.hasPhotographs = true;
+    session = after({{']'}, {'V'}}, session);
+    const auto settled = [&](const std::function<void(Session&)>& change) {
+        Session changed = session;
+        change(changed);
+        settleShow(changed);
+        return changed.state.show;
+    };
+    EXPECT_EQ(settled([](Session&) {}), Show::verdicts);
+    EXPECT_EQ(settled([](Session& s) { s.state.exposure = 3; }), Show::verdicts);
+    EXPECT_EQ(settled([](Session& s) { pointLight(s, {0.5f, 0}); }), Show::picture);
+    EXPECT_EQ(settled([](Session& s) { addLight(s); }), Show::picture);
+    EXPECT_EQ(settled([](Session& s) { play(s, 0.1f); }), Show::picture);
+    EXPECT_EQ(settled([](Session& s) { chooseMaterial(s, someChoices(), 1); }), Show::picture);
+    EXPECT_EQ(settled([](Session& s) { chooseTarget(s, someChoices(), 1); }), Show::picture);
+    EXPECT_EQ(settled([](Session& s) { chooseEnvironment(s, someChoices(), 0); }), Show::picture);
+    Session moved = session;
+    pointLight(moved, {0.5f, 0});
+    settleShow(moved);
+    EXPECT_EQ(after({{'V'}}, moved).state.lights[0].captured, 1) << "that light was not photographed";
+}
+
+TEST(Controls, TheResidualLayerGoesOnOffAndAlone)
+{
+    Session session = opened();
+    session.hasResidual = session.hasPhotographs = true;
+    EXPECT_EQ(after({{'D'}}, session).state.residual, ResidualUse::off);
+    EXPECT_EQ(after({{'D'}, {'D'}}, session).state.residual, ResidualUse::alone);
+    EXPECT_EQ(after({{'D'}, {'D'}, {'D'}}, session).state.residual, ResidualUse::on);
+    EXPECT_EQ(after({{'N'}, {'D'}}, session).state.show, Show::picture) << "normals would not show it";
+    EXPECT_EQ(after({{'C'}, {'D'}}, session).state.show, Show::coverage);
+    EXPECT_EQ(after({{'X'}, {'D'}}, session).comparison, Comparison::difference) << "of what the BRDF alone misses";
+    EXPECT_EQ(after({{'X'}, {'D'}, {'D'}}, session).comparison, Comparison::none);
+    EXPECT_EQ(after({{'D'}, {'D'}, {'X'}}, session).state.residual, ResidualUse::on);
+}
+
+TEST(Controls, WithoutAResidualLayerItsKeySaysSo)
+{
+    const Session without = after({{'D'}});
+    EXPECT_EQ(without.state, opened().state);
+    EXPECT_NE(without.message.find("no residual layer"), std::string::npos) << without.message;
+    Session session = opened();
+    session.hasResidual = true;
+    session = after({{'D'}, {'D'}}, session);
+    settleShow(session);
+    EXPECT_EQ(session.state.residual, ResidualUse::alone);
+    session.hasResidual = false; // another material was put on
+    settleShow(session);
+    EXPECT_EQ(session.state.residual, ResidualUse::on);
+}
+
+TEST(Controls, AnEnvironmentStandsInPlaceOfLights)
+{
+    const Choices choices = someChoices();
+    Session session = opened();
+    chooseEnvironment(session, choices, 1);
+    EXPECT_EQ(session.state.environment, "/e/sky.hdr");
+    EXPECT_TRUE(session.state.lights.empty());
+    chooseEnvironment(session, choices, 7);
+    EXPECT_EQ(session.state.environment, "/e/sky.hdr") << "there is no eighth";
+    chooseEnvironment(session, choices, {});
+    EXPECT_TRUE(session.state.environment.empty());
+    EXPECT_EQ(session.state.lights.size(), 1u) << "something has to light the scene";
+}
+
+TEST(Controls, KeysWithoutTheirThingSaySo)
+{
+    EXPECT_FALSE(after({{'9'}}).message.empty());
+    EXPECT_FALSE(after({{'P'}}).message.empty());
+    EXPECT_FALSE(after({{'X'}}).message.empty());
+    const auto messageOf = [](int key) {
+        Session session;
+        act(session, Choices{}, KeyPress{key});
+        return session.message;
+    };
+    EXPECT_FALSE(messageOf(']').empty());
+    EXPECT_FALSE(messageOf('W').empty());
 }
 
 TEST(Controls, ResetGoesBack)
@@ -218,7 +320,7 @@ TEST(Controls, ARightDragFollowsTheMouse)
 
 TEST(Controls, TheLightPathIsOnceAround)
 {
-    Session session = after({{']'}, {']'}});
+    Session session = after({{']'}});
     const glm::vec3 start = session.state.lights[0].direction;
     play(session, kSecondsAround / 4);
     EXPECT_LT(glm::distance(session.state.lights[0].direction, glm::vec3(0, 0.6f, 0.8f)), 1e-5f);

@@ -32,8 +32,10 @@ ViewState fullState(const std::filesystem::path& folder)
         .show = Show::coverage,
         .framing = {.zoom = 1.7f, .centre = {100.1f, 30.3f}},
         .shadows = true,
+        .residual = ResidualUse::alone,
         .materials = {"lambert:0.5", "merl:/x/gold.binary"},
         .targets = {folder / "head.nacre"},
+        .environments = {folder / "sky.hdr", folder / "studio.exr"},
         .wipe = {.material = "lambert:0.5", .at = 0.3f}};
 }
 
@@ -51,6 +53,47 @@ TEST(ViewState, ComesBackFromItsFileToTheBit)
     const ViewState state = fullState(folder.path());
     EXPECT_EQ(throughFile(state, folder / "state.json"), state);
     EXPECT_EQ(throughFile({}, folder / "empty.json"), ViewState{});
+}
+
+TEST(ViewState, EveryShowHasAName)
+{
+    for (const Show show :
+         {Show::picture, Show::normals, Show::labels, Show::coverage, Show::thetaH, Show::thetaD, Show::verdicts}) {
+        ViewState state;
+        state.show = show;
+        EXPECT_EQ(viewStateOf(sceneFileOf(state)).show, show);
+    }
+}
+
+TEST(ViewState, EveryUseOfTheResidualHasAName)
+{
+    for (const ResidualUse use : {ResidualUse::on, ResidualUse::off, ResidualUse::alone}) {
+        ViewState state;
+        state.residual = use;
+        EXPECT_EQ(viewStateOf(sceneFileOf(state)).residual, use);
+    }
+    EXPECT_EQ(sceneFileOf({}).residual, "") << "the default is not written";
+    SceneFile unknown;
+    unknown.residual = "half";
+    expectError([&] { viewStateOf(unknown); }, {"--residual half is not known", "on, off or alone"}, Error::kUsage);
+}
+
+TEST(ViewState, APhotographIsShownByItsLightAlone)
+{
+    ViewState one;
+    one.surface = "a.nacre";
+    one.lights = {{.captured = 3}};
+    EXPECT_EQ(shownPhotograph(one), 2u);
+    const auto without = [&](auto&& change) {
+        ViewState state = one;
+        change(state);
+        return !shownPhotograph(state);
+    };
+    EXPECT_TRUE(without([](ViewState& s) { s.lights[0].captured = 0; }));
+    EXPECT_TRUE(without([](ViewState& s) { s.lights.push_back({}); }));
+    EXPECT_TRUE(without([](ViewState& s) { s.environment = "sky.hdr"; }));
+    EXPECT_TRUE(without([](ViewState& s) { s.onto = "b.nacre"; })) << "another shape";
+    EXPECT_TRUE(without([](ViewState& s) { s.surface.clear(); }));
 }
 
 TEST(ViewState, PathsAreRelativeToTheFile)
