@@ -38,16 +38,16 @@ std::string describe(const ResidualReport& report)
         return {};
     }
     if (!report.whyNot.empty()) {
-        return fmt::format("residual     none: {}\n", report.whyNot);
+        return fmt::format("layer        none: {}\n", report.whyNot);
     }
     const std::string judged =
         fmt::format("photographs left out one by one: {:.1f} dB by the BRDF, {:.1f} dB with a layer",
                     report.fit.brdfPsnr, report.fit.layerPsnr);
     if (report.components == 0) {
-        return fmt::format("residual     none: {}; {:.1f} dB more are asked for\n", judged, kResidualMargin);
+        return fmt::format("layer        none: {}; {:.1f} dB more are asked for\n", judged, kResidualMargin);
     }
     return fmt::format(
-        "residual     {} components, {:.1f} KiB, {:.1f} dB of the photographs kept; {}, which trusts the "
+        "layer        {} components, {:.1f} KiB, {:.1f} dB of the photographs kept; {}, which trusts the "
         "BRDF by {:.0f} %\n",
         report.components, static_cast<double>(report.bytes) / 1024, report.capturedPsnr, judged,
         100 * report.fit.trust);
