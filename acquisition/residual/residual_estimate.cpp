@@ -115,7 +115,7 @@ size_t shadedPixels(const Surface& surface)
 {
     size_t shaded = 0;
     for (size_t i = 0; i < surface.labels.size(); ++i) {
-        shaded += surface.normals.confidence[i] > 0 && surface.labels[i] < surface.materials.size();
+        shaded += isShaded(surface, i);
     }
     return shaded;
 }

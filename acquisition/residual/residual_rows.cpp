@@ -2,28 +2,14 @@
 
 #include <algorithm>
 
-#include <glm/geometric.hpp>
+#include <glm/common.hpp>
 
-#include "shared/shading.h"
+#include "engine/scene/reference.h"
 
 namespace nacre {
 namespace {
 
 const glm::vec3 kCamera(0, 0, 1);
-
-// Under irradiance 1.
-glm::vec3 predictedRadiance(const Surface& surface, size_t pixel, const glm::vec3& light)
-{
-    const glm::vec3& n = surface.normals.normals[pixel];
-    const float nDotL = glm::dot(n, light);
-    if (nDotL <= 0 || n.z <= 0) {
-        return glm::vec3(0);
-    }
-    const BrdfTable& table = surface.materials[surface.labels[pixel]].table;
-    const float* a = surface.albedo.values.empty() ? nullptr : &surface.albedo.values[3 * pixel];
-    const glm::vec3 albedo = a == nullptr ? glm::vec3(1) : glm::vec3(a[0], a[1], a[2]);
-    return albedo * radianceFromBrdf(evaluateTable(table, n, light, kCamera).value, glm::vec3(1), nDotL);
-}
 
 } // namespace
 
@@ -36,7 +22,8 @@ ResidualRows residualRows(const Observations& block, std::span<const size_t> pla
     for (size_t p = 0; p < places.size(); ++p) {
         for (size_t i = 0; i < lights; ++i) {
             const Light& light = surface.lights[i].light;
-            const glm::vec3 predicted = predictedRadiance(surface, block.pixels[places[p]], light.direction);
+            const glm::vec3 predicted =
+                brdfRadiance(surface, block.pixels[places[p]], {light.direction, glm::vec3(1)}, kCamera);
             glm::vec3 observed = block.radianceOf(places[p])[i] / light.irradiance;
             observed = block.saturatedOf(places[p])[i] != 0 ? glm::max(observed, predicted) : observed;
             for (int c = 0; c < 3; ++c) {
@@ -66,8 +53,7 @@ std::vector<size_t> shadedPlaces(const Observations& block, const Surface& surfa
 {
     std::vector<size_t> places;
     for (size_t i = 0; i < block.pixels.size(); ++i) {
-        const size_t pixel = block.pixels[i];
-        if (surface.normals.confidence[pixel] > 0 && surface.labels[pixel] < surface.materials.size()) {
+        if (isShaded(surface, block.pixels[i])) {
             places.push_back(i);
         }
     }

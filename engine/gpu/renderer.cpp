@@ -15,11 +15,6 @@
 namespace nacre {
 namespace {
 
-bool isFromTheFront(const glm::vec3& view)
-{
-    return view == glm::vec3(0, 0, 1);
-}
-
 constexpr std::array kBallBindings = {
     ShaderBinding{kBindingNormals, kTextureInput}, ShaderBinding{kBindingAlbedo, kTextureInput},
     ShaderBinding{kBindingInput, kTextureInput}, ShaderBinding{kBindingResidual, kTextureInput},
@@ -100,7 +95,7 @@ void Renderer::setResidual(ResidualUse use)
 
 bool Renderer::hasResidual() const
 {
-    return !surface_.residual.empty() && residual_ != ResidualUse::off && showsResidual(view_);
+    return !surface_.residual.empty() && residual_ != ResidualUse::off && isFromTheFront(view_);
 }
 
 DirectFrame::Inputs Renderer::inputs(float gain)

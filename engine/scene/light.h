@@ -10,4 +10,10 @@ struct Light {
     bool operator==(const Light&) const = default;
 };
 
+// Of the direction towards the viewer.
+inline bool isFromTheFront(const glm::vec3& view)
+{
+    return view == glm::vec3(0, 0, 1);
+}
+
 } // namespace nacre

@@ -21,7 +21,7 @@ struct PreparedLights {
 PreparedLights prepare(const Scene& scene)
 {
     PreparedLights prepared;
-    const ResidualUse use = showsResidual(scene.view) ? ResidualUse::on : ResidualUse::off;
+    const ResidualUse use = isFromTheFront(scene.view) ? ResidualUse::on : ResidualUse::off;
     prepared.residual = residualFrame(scene.surface.residual, scene.lights, use);
     for (const Light& light : scene.lights) {
         prepared.lookups.push_back(horizonLookup(light.direction, scene.surface.horizon.azimuths));
@@ -29,32 +29,10 @@ PreparedLights prepare(const Scene& scene)
     return prepared;
 }
 
-glm::vec3 radianceUnderLights(const BrdfTable& table, const Scene& scene, const PreparedLights& lights, size_t pixel)
-{
-    const glm::vec3& n = scene.surface.normals.normals[pixel];
-    glm::vec3 sum(0);
-    for (size_t i = 0; i < scene.lights.size(); ++i) {
-        const Light& light = lights.residual.base[i];
-        const float nDotL = glm::dot(n, light.direction);
-        if (nDotL > 0) {
-            const glm::vec3 f = evaluateTable(table, n, light.direction, scene.view).value;
-            sum += visibilityOf(scene.surface.horizon, lights.lookups[i], pixel) *
-                   radianceFromBrdf(f, light.irradiance, nDotL);
-        }
-    }
-    return sum;
-}
-
-glm::vec3 albedoOf(const Surface& surface, size_t pixel)
-{
-    const float* a = surface.albedo.values.empty() ? nullptr : &surface.albedo.values[3 * pixel];
-    return a == nullptr ? glm::vec3(1) : glm::vec3(a[0], a[1], a[2]);
-}
-
 // What the BRDF says, and what it does not know.
 glm::vec3 withResidual(const Scene& scene, const ResidualFrame& residual, glm::vec3 radiance, size_t pixel)
 {
-    if (scene.surface.residual.empty() || !showsResidual(scene.view)) {
+    if (scene.surface.residual.empty() || !isFromTheFront(scene.view)) {
         return radiance;
     }
     return glm::max(radiance + residualOfPixel(scene.surface.residual, residual.weights, pixel), glm::vec3(0));
@@ -63,18 +41,30 @@ glm::vec3 withResidual(const Scene& scene, const ResidualFrame& residual, glm::v
 glm::vec3 radianceOfPixel(const Scene& scene, const PreparedLights& lights, size_t pixel)
 {
     const Surface& surface = scene.surface;
-    const glm::vec3& n = surface.normals.normals[pixel];
-    const uint8_t label = surface.labels[pixel];
-    const bool hasNormal = surface.normals.confidence[pixel] > 0;
-    const bool hasMaterial = label < surface.materials.size();
-    if (!hasNormal || !hasMaterial || glm::dot(n, scene.view) <= 0) {
+    if (!isShaded(surface, pixel) || glm::dot(surface.normals.normals[pixel], scene.view) <= 0) {
         return glm::vec3(0);
     }
-    const glm::vec3 radiance = radianceUnderLights(surface.materials[label].table, scene, lights, pixel);
-    return withResidual(scene, lights.residual, albedoOf(surface, pixel) * radiance, pixel);
+    glm::vec3 sum(0);
+    for (size_t i = 0; i < scene.lights.size(); ++i) {
+        sum += visibilityOf(surface.horizon, lights.lookups[i], pixel) *
+               brdfRadiance(surface, pixel, lights.residual.base[i], scene.view);
+    }
+    return withResidual(scene, lights.residual, sum, pixel);
 }
 
 } // namespace
+
+glm::vec3 brdfRadiance(const Surface& surface, size_t pixel, const Light& light, const glm::vec3& view)
+{
+    const glm::vec3& n = surface.normals.normals[pixel];
+    const float nDotL = glm::dot(n, light.direction);
+    if (nDotL <= 0 || glm::dot(n, view) <= 0) {
+        return glm::vec3(0);
+    }
+    const BrdfTable& table = surface.materials[surface.labels[pixel]].table;
+    const glm::vec3 f = evaluateTable(table, n, light.direction, view).value;
+    return albedoFactor(surface, pixel) * radianceFromBrdf(f, light.irradiance, nDotL);
+}
 
 Frame renderReference(const Scene& scene, int threads)
 {
@@ -104,11 +94,11 @@ Image referenceBallPicture(const Scene& scene, std::span<const BallSize> sizes, 
     for (size_t pixel = 0; pixel < frame.pixelCount(); ++pixel) {
         const glm::vec3& n = surface.normals.normals[pixel];
         const uint8_t label = surface.labels[pixel];
-        if (surface.normals.confidence[pixel] <= 0 || label >= balls.size() || n.z <= 0) {
+        if (!isShaded(surface, pixel) || n.z <= 0) {
             continue;
         }
         const glm::vec3 radiance =
-            albedoOf(surface, pixel) * sampleStretchedBall(balls[label], sizes[label].display, n);
+            albedoFactor(surface, pixel) * sampleStretchedBall(balls[label], sizes[label].display, n);
         const glm::vec3 all = withResidual(scene, lights.residual, radiance, pixel);
         std::copy_n(&all.x, 3, &frame.values[3 * pixel]);
     }

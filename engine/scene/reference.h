@@ -7,6 +7,9 @@
 
 namespace nacre {
 
+// Radiance of a shaded pixel by its BRDF and albedo factor alone; 0 from behind. `view` is unit, towards the viewer.
+glm::vec3 brdfRadiance(const Surface& surface, size_t pixel, const Light& light, const glm::vec3& view);
+
 // The CPU twin of shaders/direct.frag: the same shared formulas, per pixel and light one lookup of the table.
 Frame renderReference(const Scene& scene, int threads = 0);
 

@@ -36,12 +36,6 @@ struct ResidualLayer {
 
 inline constexpr int kMostResidualComponents = kMostResidualLayers * kComponentsPerTexel;
 
-// From the front alone: view is unit, towards the viewer.
-inline bool showsResidual(const glm::vec3& view)
-{
-    return view == glm::vec3(0, 0, 1);
-}
-
 // off: the BRDF alone, wholly trusted. alone: the sum over components, about middle grey.
 enum class ResidualUse { on, off, alone };
 

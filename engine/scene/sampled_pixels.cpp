@@ -10,7 +10,7 @@ std::vector<size_t> shadedPixels(const Surface& surface)
 {
     std::vector<size_t> pixels;
     for (size_t i = 0; i < surface.labels.size(); ++i) {
-        if (surface.normals.confidence[i] > 0 && surface.labels[i] < surface.materials.size()) {
+        if (isShaded(surface, i)) {
             pixels.push_back(i);
         }
     }

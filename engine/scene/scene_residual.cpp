@@ -8,7 +8,7 @@ namespace nacre {
 
 bool hasResidualFrom(const Surface& surface, const glm::vec3& view)
 {
-    return !surface.residual.empty() && showsResidual(view);
+    return !surface.residual.empty() && isFromTheFront(view);
 }
 
 void requireResidual(const Surface& surface, const glm::vec3& view, ResidualUse use)

@@ -54,6 +54,18 @@ struct Surface {
     RadianceScale scale = RadianceScale::relative;
 };
 
+// Whether the pixel has a normal and a material.
+inline bool isShaded(const Surface& surface, size_t pixel)
+{
+    return surface.normals.confidence[pixel] > 0 && surface.labels[pixel] < surface.materials.size();
+}
+
+inline glm::vec3 albedoFactor(const Surface& surface, size_t pixel)
+{
+    const float* a = surface.albedo.values.empty() ? nullptr : &surface.albedo.values[3 * pixel];
+    return a == nullptr ? glm::vec3(1) : glm::vec3(a[0], a[1], a[2]);
+}
+
 // surface.json, normals.exr, labels.png, albedo.exr (where estimated), height.exr (where known), material_N.exr and
 // material_N_coverage.exr, residual_NN.png and residual_weights.exr (where there is a residual layer).
 // Written into a temporary folder, then renamed; an existing folder is refused without `replace`.
