@@ -16,8 +16,7 @@ namespace {
 
 constexpr size_t kFewestLights = 6; // three for the plane through them, as many again to judge it
 constexpr double kLeastHullArea = 1e-3;
-constexpr double kTruncationShare =
-    0.25; // of the error that lights left out have: less than 1 dB of it, most of it noise
+constexpr double kTruncationShare = 0.1; // of the error that lights left out have: at most 0.4 dB of it
 
 // The cost of judging grows with the square of the lights.
 size_t samplePixels(size_t lights)
