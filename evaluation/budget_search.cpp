@@ -35,7 +35,7 @@ public:
            const Progress& progress)
         : capture_(capture), options_(options), budget_(budget), elapsed_(elapsed), progress_(progress)
     {
-        heldOut_ = heldOutIndices(capture.photographs.size(), kBudgetHeldOutEvery).size();
+        heldOut_ = heldOutIndices(capture.photographs.size(), {.heldOutEvery = kBudgetHeldOutEvery}).size();
     }
 
     BudgetResult run(std::vector<AcquireCandidate> candidates)

@@ -25,7 +25,7 @@ size_t countGiven(const Capture& capture)
 JudgingPhotographs readHeldOut(const Capture& capture, const AcquireOptions& options)
 {
     const Rig rig = calibrateLights(capture, options.calibration);
-    const std::vector<size_t> chosen = heldOutIndices(capture.photographs.size(), kChartHeldOutEvery);
+    const std::vector<size_t> chosen = heldOutIndices(capture.photographs.size(), {.heldOutEvery = kChartHeldOutEvery});
     JudgingPhotographs heldOut;
     ObservationReader(capture, options.normals.threads, ~size_t{0}).next(heldOut.seen);
     heldOut.peak = peakOf(heldOut.seen);

@@ -11,6 +11,7 @@
 #include "acquisition/prepared_normals.h"
 #include "engine/scene/measures.h"
 #include "engine/scene/parallel_for.h"
+#include "evaluation/judging_photographs.h"
 
 namespace nacre {
 
@@ -33,17 +34,6 @@ double percentile99(const Observations& all, bool grey)
         }
     }
     return values.empty() ? 1.0 : std::max(quantile(values, 0.99), 1e-12f);
-}
-
-std::vector<size_t> heldOutOf(size_t photographs, const LightChoice& choice)
-{
-    std::vector<size_t> heldOut;
-    for (size_t i = 0; i < photographs; ++i) {
-        if (isHeldOutOfEvery(i, choice.heldOutEvery, choice.heldOutFirst)) {
-            heldOut.push_back(i);
-        }
-    }
-    return heldOut;
 }
 
 // The irradiances that all photographs together give, where the acquisition may correct them: one that nobody can know
@@ -205,7 +195,7 @@ HeldOutEvaluation evaluateHeldOut(const Capture& capture, AcquireOptions options
         evaluation.acquisition = acquire(capture, options, progress);
         evaluation.seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
         const std::vector<size_t> given = chosenLights(rig.lights, options.lights);
-        const std::vector<size_t> heldOut = heldOutOf(capture.photographs.size(), options.lights);
+        const std::vector<size_t> heldOut = heldOutIndices(capture.photographs.size(), options.lights);
         evaluation.given = given.size();
         for (const size_t i : heldOut) {
             evaluation.photographs.push_back(capture.photographs[i].name);

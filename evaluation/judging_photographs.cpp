@@ -6,11 +6,11 @@
 
 namespace nacre {
 
-std::vector<size_t> heldOutIndices(size_t photographs, size_t every)
+std::vector<size_t> heldOutIndices(size_t photographs, const LightChoice& choice)
 {
     std::vector<size_t> chosen;
     for (size_t i = 0; i < photographs; ++i) {
-        if (isHeldOutOfEvery(i, every)) {
+        if (isHeldOutOfEvery(i, choice.heldOutEvery, choice.heldOutFirst)) {
             chosen.push_back(i);
         }
     }
@@ -30,7 +30,7 @@ double peakOf(const Observations& seen)
 JudgingPhotographs readJudging(const Capture& capture, const AcquireOptions& options, size_t every)
 {
     const Rig rig = calibrateLights(capture, options.calibration);
-    const std::vector<size_t> chosen = heldOutIndices(capture.photographs.size(), every);
+    const std::vector<size_t> chosen = heldOutIndices(capture.photographs.size(), {.heldOutEvery = every});
     JudgingPhotographs judging;
     judging.lights = selectLights(rig.lights, chosen);
     const Capture heldOut = selectPhotographs(capture, chosen);

@@ -12,8 +12,8 @@ struct JudgingPhotographs {
     double peak = 1; // radiance that counts as 1
 };
 
-// Indices of every `every`-th of the photographs.
-std::vector<size_t> heldOutIndices(size_t photographs, size_t every);
+// Indices of the photographs that a choice holds out.
+std::vector<size_t> heldOutIndices(size_t photographs, const LightChoice& choice);
 
 // Reads these photographs alone, at once. The peak is the 99th percentile of their own values.
 JudgingPhotographs readJudging(const Capture& capture, const AcquireOptions& options, size_t every);

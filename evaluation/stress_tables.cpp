@@ -4,21 +4,11 @@
 
 #include <fmt/format.h>
 
+#include "evaluation/chart_tables.h"
+
 namespace nacre {
 
 namespace {
-
-std::string fieldOf(const std::string& text)
-{
-    if (text.find_first_of(",\"\r\n") == std::string::npos) {
-        return text;
-    }
-    std::string quoted = "\"";
-    for (const char c : text) {
-        quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
-    }
-    return quoted + "\"";
-}
 
 const char* textOf(Said said)
 {
@@ -88,10 +78,10 @@ std::string csvOf(const std::vector<StressRow>& rows)
                        "missing_pixels,seconds,broken,warned,silent,mean_confidence,wrong_share,warnings\n";
     for (const StressRow& r : rows) {
         text += fmt::format("{},{},{},{},{},{:.4f},{},{:.4f},{:.4f},{},{},{:.3f},{},{},{},{:.4f},{:.4f},{}\n",
-                            fieldOf(r.capture), r.sweep, r.setting, fieldOf(r.unit), r.method, r.error,
+                            csvField(r.capture), r.sweep, r.setting, csvField(r.unit), r.method, r.error,
                             r.isBrdf ? "percent" : "degrees", r.angles.median, r.angles.percentile95, r.angles.pixels,
                             r.angles.missing, r.seconds, r.broken ? "yes" : "no", textOf(r.said),
-                            isSilentFailure(r) ? "yes" : "no", r.meanConfidence, r.wrongShare, fieldOf(r.warnings));
+                            isSilentFailure(r) ? "yes" : "no", r.meanConfidence, r.wrongShare, csvField(r.warnings));
     }
     return text;
 }

@@ -146,7 +146,10 @@ ResidualLayer estimateResidual(const Surface& surface, const ResidualOptions& op
     report.fit = chooseResidualFit(rows, lights, peak, options.choice);
     const size_t each = bytesPerComponent(pixels, lights.size());
     const size_t afforded = options.budgetBytes > 0 ? options.budgetBytes / each : kMostResidualComponents;
-    report.fit.isKept = report.fit.isKept && afforded > 0;
+    if (report.fit.isKept && afforded == 0) {
+        report.fit.isKept = false;
+        report.whyNot = fmt::format("a component takes {} bytes, {} may be used", each, options.budgetBytes);
+    }
     if (!report.fit.isKept) {
         return {};
     }

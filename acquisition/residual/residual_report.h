@@ -21,7 +21,7 @@ inline constexpr double kResidualMargin = 0.3; // dB
 struct ResidualReport {
     ResidualChoice choice = ResidualChoice::none;
     ResidualFit fit{};       // judged where whyNot is empty and the choice is not none
-    std::string whyNot;      // in `automatic`, where lights cannot tell
+    std::string whyNot;      // where lights cannot tell, or the budget holds nothing
     int components = 0;      // kept; 0: no layer
     double capturedPsnr = 0; // dB of radiance at the captured lights, by the components kept
     size_t bytes = 0;        // of the layer, pixels of the mask alone

@@ -10,6 +10,7 @@
 #include "ball_frag.h"
 #include "engine/scene/error.h"
 #include "engine/scene/sampled_pixels.h"
+#include "engine/scene/scene_residual.h"
 #include "shared/layout.h"
 
 namespace nacre {
@@ -95,7 +96,7 @@ void Renderer::setResidual(ResidualUse use)
 
 bool Renderer::hasResidual() const
 {
-    return !surface_.residual.empty() && residual_ != ResidualUse::off && isFromTheFront(view_);
+    return residual_ != ResidualUse::off && hasResidualFrom(surface_, view_);
 }
 
 DirectFrame::Inputs Renderer::inputs(float gain)

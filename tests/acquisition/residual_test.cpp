@@ -234,6 +234,7 @@ TEST(ResidualEstimate, BudgetsAreKept)
     EXPECT_LE(report.components, 2);
     estimateResidual(surface, {.choice = ResidualChoice::difference, .budgetBytes = 10, .threads = 1}, each, report);
     EXPECT_EQ(report.components, 0);
+    EXPECT_NE(report.whyNot.find("10 may be used"), std::string::npos) << report.whyNot;
 }
 
 // Six lights on a line, or five anywhere, leave nothing to judge by.

@@ -4,20 +4,11 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/scene/whole_file.h"
-#include "tests/support/run_nacre.h"
+#include "tests/support/small_capture.h"
 
 namespace nacre {
 namespace {
 namespace fs = std::filesystem;
-
-std::string makeCapture(const TempFolder& folder)
-{
-    const std::string capture = (folder / "c").string();
-    const ProgramRun made = runNacre({"synth", capture, "--shape", "sphere", "--size", "24", "--sphere-size", "48",
-                                      "--lights", "14", "--give-lights"});
-    EXPECT_EQ(made.exitCode, 0) << made.err;
-    return capture;
-}
 
 std::vector<std::string> wordsOf(const std::string& text)
 {
@@ -39,7 +30,7 @@ void expectSameFiles(const fs::path& a, const fs::path& b)
 TEST(AcquireBudget, WhatIsKeptIsWhatItsOptionsGiveByHand)
 {
     const TempFolder folder;
-    const std::string capture = makeCapture(folder), found = (folder / "found.nacre").string(),
+    const std::string capture = makeSmallCapture(folder), found = (folder / "found.nacre").string(),
                       byHand = (folder / "hand.nacre").string(), summary = (folder / "s.json").string();
     // Whatever is kept, much or little time, the bytes are those of its options.
     for (const char* time : {"1ms", "1.5s"}) {
@@ -76,7 +67,7 @@ TEST(AcquireBudget, RefusesWhatItWouldChooseItselfAndTimesThatAreNone)
 TEST(AcquireReport, IsOnePageThatStandsAlone)
 {
     const TempFolder folder;
-    const std::string capture = makeCapture(folder), report = (folder / "deep" / "report").string();
+    const std::string capture = makeSmallCapture(folder), report = (folder / "deep" / "report").string();
     const std::vector<std::string> arguments = {"acquire",   capture,       "-o",       (folder / "s.nacre").string(),
                                                 "--normals", "consensus",   "--report", report,
                                                 "--force",   "--tolerance", "40dB"};

@@ -5,20 +5,11 @@
 
 #include "engine/scene/image.h"
 #include "engine/scene/whole_file.h"
-#include "tests/support/run_nacre.h"
+#include "tests/support/small_capture.h"
 
 namespace nacre {
 namespace {
 namespace fs = std::filesystem;
-
-std::string makeCapture(const TempFolder& folder)
-{
-    const std::string capture = (folder / "c").string();
-    const ProgramRun made = runNacre({"synth", capture, "--shape", "sphere", "--size", "24", "--sphere-size", "48",
-                                      "--lights", "14", "--give-lights"});
-    EXPECT_EQ(made.exitCode, 0) << made.err;
-    return capture;
-}
 
 size_t linesOf(const std::string& text)
 {
@@ -30,7 +21,7 @@ TEST(ChartCommand, WritesTablesPicturesAndOneReport)
     const TempFolder folder;
     const std::string output = (folder / "charts").string();
     std::vector<std::string> arguments = {"chart",
-                                          makeCapture(folder),
+                                          makeSmallCapture(folder),
                                           "-o",
                                           output,
                                           "--methods",
@@ -64,7 +55,7 @@ TEST(ChartCommand, WritesTablesPicturesAndOneReport)
 TEST(ChartCommand, LeavesWhatIsFinishedWhenItIsInterrupted)
 {
     const TempFolder folder;
-    const std::string capture = makeCapture(folder), output = (folder / "charts").string();
+    const std::string capture = makeSmallCapture(folder), output = (folder / "charts").string();
     // Both by `timeout`: the signal comes while the many settings are under way, whatever the machine's speed.
     const ProgramRun run = runProgram("/usr/bin/timeout", {"--preserve-status", "-s", "INT", "3", NACRE_EXECUTABLE,
                                                            "chart", capture, "-o", output, "--threads", "1"});
@@ -90,7 +81,7 @@ void cutInHalf(const fs::path& file)
 TEST(ChartCommand, APhotographThatCannotBeReadCostsNothingThatIsFinished)
 {
     const TempFolder folder;
-    const std::string good = makeCapture(folder), bad = (folder / "bad").string();
+    const std::string good = makeSmallCapture(folder), bad = (folder / "bad").string();
     fs::copy(good, bad, fs::copy_options::recursive);
     cutInHalf(fs::path(bad) / "object_05.png");
     const ProgramRun run = runNacre({"chart", bad, good, "-o", (folder / "charts").string(), "--parts", "normals,brdf",
@@ -107,7 +98,7 @@ TEST(ChartCommand, APhotographThatCannotBeReadCostsNothingThatIsFinished)
 TEST(ChartCommand, DrawsFramesByEveryPath)
 {
     const TempFolder folder;
-    const ProgramRun run = runNacre({"chart", makeCapture(folder), "-o", (folder / "charts").string(), "--parts",
+    const ProgramRun run = runNacre({"chart", makeSmallCapture(folder), "-o", (folder / "charts").string(), "--parts",
                                      "rendering", "--frame-lights", "2", "--frame-size", "160x96"});
     ASSERT_EQ(run.exitCode, 0) << run.err;
     const std::string csv = readTextFile(folder / "charts" / "rendering.csv");
@@ -154,7 +145,7 @@ TEST(ChartCommand, RefusesWhatItDoesNotKnow)
 TEST(EvaluateCommand, TellsPhotographsNormalsBytesAndShowsTheWorst)
 {
     const TempFolder folder;
-    const std::string capture = makeCapture(folder), summary = (folder / "e.json").string();
+    const std::string capture = makeSmallCapture(folder), summary = (folder / "e.json").string();
     const std::vector<std::string> arguments = {"evaluate", capture, "--normals", "consensus",
                                                 "--json",   summary, "-o",        (folder / "sheet").string()};
     const ProgramRun run = runNacre(arguments);
