@@ -48,6 +48,9 @@ void reconcilePhotographs(const CaptureSample& capture, const AcquireOptions& op
         names = selected(names, prepared.agreeing);
         ratios = estimateIntensityRatios(sample, prepared.lights, options.normals);
     }
+    if (capture.irradiancesKnown) {
+        ratios = confirmedRatios(ratios, sample, prepared.lights, options.normals);
+    }
     prepared.report.remarks = correctIntensities(ratios, names, capture.irradiancesKnown, prepared.lights);
     prepared.report.remarks.insert(prepared.report.remarks.begin(), remarks.begin(), remarks.end());
 }

@@ -54,15 +54,31 @@ Rig reconciledRig(const Capture& capture, Rig rig, const Observations& all, cons
     return rig;
 }
 
+// With the irradiances that the acquisition found; of photographs that it left out, as they were.
+std::vector<Light> lightsAsFound(const Surface& surface, const Capture& capture, const std::vector<size_t>& given,
+                                 std::vector<Light> lights)
+{
+    for (size_t i = 0; i < given.size(); ++i) {
+        for (const CapturedLight& found : surface.lights) {
+            if (found.photograph == capture.photographs[given[i]].name) {
+                lights[i].irradiance = found.light.irradiance;
+            }
+        }
+    }
+    return lights;
+}
+
+// What stands for the given photographs is the same for every method: what the acquisition made of those alone.
 Truth readTruth(const Capture& capture, const Rig& calibrated, const std::vector<size_t>& heldOut,
-                const std::vector<size_t>& given, const AcquireOptions& options)
+                const std::vector<size_t>& given, const Surface& surface, const AcquireOptions& options)
 {
     ObservationReader reader(capture, options.normals.threads, ~size_t{0});
     Observations all;
     reader.next(all);
     const Rig rig = reconciledRig(capture, calibrated, all, options);
-    return {selectLights(all, heldOut),      selectLights(all, given), selectLights(rig, heldOut).lights,
-            selectLights(rig, given).lights, percentile99(all, false), percentile99(all, true)};
+    return {selectLights(all, heldOut),        selectLights(all, given),
+            selectLights(rig, heldOut).lights, lightsAsFound(surface, capture, given, selectLights(rig, given).lights),
+            percentile99(all, false),          percentile99(all, true)};
 }
 
 double ownPeakOf(const Observations& seen, size_t photograph)
@@ -200,8 +216,8 @@ HeldOutEvaluation evaluateHeldOut(const Capture& capture, AcquireOptions options
         for (const size_t i : heldOut) {
             evaluation.photographs.push_back(capture.photographs[i].name);
         }
-        const Truth truth = readTruth(capture, rig, heldOut, given, options);
         const Surface& surface = evaluation.acquisition.surface;
+        const Truth truth = readTruth(capture, rig, heldOut, given, surface, options);
         const Predictions predicted = predictBySurface(surface, truth.heldOut, truth.heldOutLights, threads);
         nacre.add(truth, predicted);
         judgePhotographs(capture, truth, predicted, evaluation);

@@ -137,6 +137,65 @@ float spreadOf(const std::vector<glm::vec3>& ratios)
     return 1.4826f * quantile(deviations, 0.5);
 }
 
+bool disagrees(const PhotographRatios& found, size_t photograph)
+{
+    const float limit = std::max(kLeastDeviation, kDeviationSigmas * found.spread);
+    return std::abs(std::log(greyOf(found.ratios[photograph]))) > limit;
+}
+
+float steepestStep(const std::vector<glm::vec3>& from, const std::vector<glm::vec3>& to)
+{
+    float steepest = 0;
+    for (size_t i = 0; i < from.size(); ++i) {
+        const glm::vec3 step = glm::abs(glm::log(to[i] / from[i]));
+        steepest = std::max({steepest, step.x, step.y, step.z});
+    }
+    return steepest;
+}
+
+// Ratios of the photographs that are free; the others' stay 1. Without a fixed one the scale is the median's.
+PhotographRatios refineRatios(const Observations& sample, const std::vector<Light>& lights,
+                              const NormalOptions& options, const std::vector<bool>& isFree)
+{
+    PhotographRatios result;
+    result.ratios.assign(lights.size(), glm::vec3(1));
+    const bool allFree = std::find(isFree.begin(), isFree.end(), false) == isFree.end();
+    std::vector<Light> current = lights;
+    NormalOptions quick = options;
+    quick.triples = std::min(options.triples, kTriples);
+    const NormalEstimator consensus = makeConsensusEstimator(lights, quick); // knows directions alone
+    for (; result.iterations < kMostIterations; ++result.iterations) {
+        const NormalBlock normals = consensus(intensitiesOf(sample, current));
+        std::vector<ChannelRatios> gathered = gatherRatios(sample, normals, current);
+        std::vector<glm::vec3> next = result.ratios;
+        for (size_t i = 0; i < lights.size(); ++i) {
+            for (int c = 0; c < 3; ++c) {
+                std::vector<float>& values = gathered[i].values[c];
+                const bool knows = isFree[i] && values.size() >= kFewestPixels;
+                const float ratio = knows ? quantile(values, 0.5) : 1.0f;
+                next[i][c] *= ratio > 0 ? std::pow(ratio, kOverRelaxation) : 1.0f;
+            }
+        }
+        if (allFree) {
+            fixScale(next);
+        }
+        const float change = steepestStep(result.ratios, next);
+        for (size_t i = 0; i < lights.size(); ++i) {
+            current[i].irradiance = lights[i].irradiance * next[i];
+        }
+        result.ratios = next;
+        if (change < kRest || result.iterations + 1 == kMostIterations) {
+            result.scatters.clear();
+            std::transform(gathered.begin(), gathered.end(), std::back_inserter(result.scatters), scatterOf);
+        }
+        if (change < kRest) {
+            break;
+        }
+    }
+    result.spread = spreadOf(result.ratios);
+    return result;
+}
+
 } // namespace
 
 bool canCompare(const Observations& sample)
@@ -153,15 +212,13 @@ std::vector<std::string> correctIntensities(const PhotographRatios& found, const
             fmt::format("intensities estimated from the photographs themselves in {} steps: {:.2f} to {:.2f}",
                         found.iterations, leastGrey(found.ratios), largestGrey(found.ratios)));
     }
-    const float limit = std::max(kLeastDeviation, kDeviationSigmas * found.spread);
     std::vector<glm::vec3> corrected;
     std::string corrections;
     for (size_t i = 0; i < lights.size(); ++i) {
-        const bool disagrees = std::abs(std::log(greyOf(found.ratios[i]))) > limit;
-        if (!known || disagrees) {
+        if (!known || disagrees(found, i)) {
             lights[i].irradiance *= found.ratios[i];
         }
-        if (known && disagrees) {
+        if (known && disagrees(found, i)) {
             corrected.push_back(found.ratios[i]);
             corrections += (corrections.empty() ? "" : ", ") + names[i];
         }
@@ -178,41 +235,22 @@ std::vector<std::string> correctIntensities(const PhotographRatios& found, const
 PhotographRatios estimateIntensityRatios(const Observations& sample, const std::vector<Light>& lights,
                                          const NormalOptions& options)
 {
-    PhotographRatios result;
-    result.ratios.assign(lights.size(), glm::vec3(1));
-    std::vector<Light> current = lights;
-    NormalOptions quick = options;
-    quick.triples = std::min(options.triples, kTriples);
-    const NormalEstimator consensus = makeConsensusEstimator(lights, quick); // knows directions alone
-    for (; result.iterations < kMostIterations; ++result.iterations) {
-        const NormalBlock normals = consensus(intensitiesOf(sample, current));
-        std::vector<ChannelRatios> gathered = gatherRatios(sample, normals, current);
-        std::vector<glm::vec3> next = result.ratios;
-        for (size_t i = 0; i < lights.size(); ++i) {
-            for (int c = 0; c < 3; ++c) {
-                std::vector<float>& values = gathered[i].values[c];
-                const float ratio = values.size() < kFewestPixels ? 1.0f : quantile(values, 0.5);
-                next[i][c] *= ratio > 0 ? std::pow(ratio, kOverRelaxation) : 1.0f;
-            }
-        }
-        fixScale(next);
-        float change = 0;
-        for (size_t i = 0; i < lights.size(); ++i) {
-            const glm::vec3 step = glm::abs(glm::log(next[i] / result.ratios[i]));
-            change = std::max({change, step.x, step.y, step.z});
-            current[i].irradiance = lights[i].irradiance * next[i];
-        }
-        result.ratios = next;
-        if (change < kRest || result.iterations + 1 == kMostIterations) {
-            result.scatters.clear();
-            std::transform(gathered.begin(), gathered.end(), std::back_inserter(result.scatters), scatterOf);
-        }
-        if (change < kRest) {
-            break;
-        }
+    return refineRatios(sample, lights, options, std::vector<bool>(lights.size(), true));
+}
+
+PhotographRatios confirmedRatios(const PhotographRatios& found, const Observations& sample,
+                                 const std::vector<Light>& lights, const NormalOptions& options)
+{
+    std::vector<bool> isDoubted;
+    for (size_t i = 0; i < lights.size(); ++i) {
+        isDoubted.push_back(disagrees(found, i));
     }
-    result.spread = spreadOf(result.ratios);
-    return result;
+    if (std::find(isDoubted.begin(), isDoubted.end(), true) == isDoubted.end()) {
+        return found;
+    }
+    PhotographRatios confirmed = refineRatios(sample, lights, options, isDoubted);
+    confirmed.spread = found.spread; // the photographs' own scatter, which fixed ratios do not show
+    return confirmed;
 }
 
 } // namespace nacre

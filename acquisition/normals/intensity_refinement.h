@@ -27,6 +27,12 @@ struct PhotographRatios {
 PhotographRatios estimateIntensityRatios(const Observations& sample, const std::vector<Light>& lights,
                                          const NormalOptions& options);
 
+// For irradiances that were measured: photographs whose ratios disagree are asked again with all others at 1. Few
+// lights leave room to explain one bad photograph by the strength of another, which does not hold once the others hold
+// still.
+PhotographRatios confirmedRatios(const PhotographRatios& found, const Observations& sample,
+                                 const std::vector<Light>& lights, const NormalOptions& options);
+
 // Whether there are enough photographs and pixels to compare them.
 bool canCompare(const Observations& sample);
 

@@ -14,8 +14,7 @@ constexpr double kPenalties[] = {1e-4, 1e-3, 1e-2, 1e-1};
 constexpr float kTrusts[] = {0, 0.25f, 0.5f, 0.75f, 1};
 constexpr double kUsualPenalty = 1e-2;
 constexpr float kUsualTrust = 0.5f;
-constexpr double kStandardErrors = 2;
-constexpr double kMostLeverage = 0.9; // a light that alone decides normals says little, but not nothing
+constexpr double kLevelQuantile = 2.807; // of the normal distribution at 5 % over the 20 settings compared
 
 struct Candidate {
     bool hasLayer = true;
@@ -24,84 +23,40 @@ struct Candidate {
     Eigen::ArrayXd errors; // squared, one a light
 };
 
-// Multiplied by it, radiance over irradiance becomes radiance over peak: [channel, light].
-Eigen::ArrayXXf scalesOf(std::span<const Light> lights, float peak)
-{
-    Eigen::ArrayXXf scales(3, lights.size());
-    for (size_t i = 0; i < lights.size(); ++i) {
-        for (int c = 0; c < 3; ++c) {
-            scales(c, static_cast<Eigen::Index>(i)) = lights[i].irradiance[c] / peak;
-        }
-    }
-    return scales;
-}
-
-Eigen::ArrayXXf clipped(const Eigen::MatrixXf& rows, const Eigen::ArrayXXf& scales)
-{
-    Eigen::ArrayXXf values = rows.array();
-    for (Eigen::Index row = 0; row < values.rows(); ++row) {
-        values.row(row) *= scales.row(row % 3);
-    }
-    return values.max(0.0f).min(1.0f);
-}
-
-Eigen::ArrayXd errorsPerLight(const Eigen::ArrayXXf& truth, const Eigen::MatrixXf& guess, const Eigen::ArrayXXf& scales)
-{
-    return (clipped(guess, scales) - truth).cast<double>().square().colwise().mean().transpose();
-}
-
-// Share of each light's observation in its own Lambertian fit: the diagonal of L (L'L)^-1 L'.
-Eigen::ArrayXf leverages(std::span<const Light> lights)
-{
-    Eigen::MatrixXd matrix(lights.size(), 3);
-    for (size_t i = 0; i < lights.size(); ++i) {
-        const glm::vec3& l = lights[i].direction;
-        matrix.row(static_cast<Eigen::Index>(i)) << l.x, l.y, l.z;
-    }
-    const Eigen::MatrixXd hat = matrix * (matrix.transpose() * matrix).ldlt().solve(matrix.transpose());
-    return hat.diagonal().array().max(0.0).min(kMostLeverage).cast<float>();
-}
-
-// What the BRDF would have said of each light without having seen it, to first order.
-Eigen::MatrixXf predictedUnseen(const ResidualRows& rows, std::span<const Light> lights)
-{
-    const Eigen::ArrayXf kept = 1 - leverages(lights);
-    const Eigen::MatrixXf errors = rows.observed - rows.predicted;
-    return rows.observed - errors * kept.inverse().matrix().asDiagonal();
-}
-
-std::vector<Candidate> candidatesOf(const ResidualRows& rows, std::span<const Light> lights, float peak)
+std::vector<Candidate> candidatesOf(const ResidualRows& rows, std::span<const Light> lights, const ResidualJudge& judge)
 {
     std::vector<glm::vec2> nodes;
     for (const Light& light : lights) {
         nodes.push_back(lightPlanePoint(light.direction));
     }
-    const Eigen::ArrayXXf scales = scalesOf(lights, peak), truth = clipped(rows.observed, scales);
-    const Eigen::MatrixXf unseen = predictedUnseen(rows, lights);
-    std::vector<Candidate> candidates = {{false, 1, 0, errorsPerLight(truth, unseen, scales)}};
+    std::vector<Candidate> candidates = {{false, 1, 0, judge.errors(judge.unseen())}};
     for (const double penalty : kPenalties) {
         const Eigen::MatrixXf weights = leaveOneOutWeights(nodes, penalty).cast<float>().transpose();
         const Eigen::MatrixXf observed = rows.observed * weights, predicted = rows.predicted * weights;
         for (const float trust : kTrusts) {
-            const Eigen::MatrixXf guess = trust * unseen + observed - trust * predicted;
-            candidates.push_back({true, trust, penalty, errorsPerLight(truth, guess, scales)});
+            const Eigen::MatrixXf guess = observed + trust * (judge.unseen() - predicted);
+            candidates.push_back({true, trust, penalty, judge.errors(guess)});
         }
     }
     return candidates;
 }
 
-// By how much the mean error falls, less two of its standard errors.
+// Student's t where the normal distribution has kLevelQuantile (Abramowitz and Stegun, Handbook of Mathematical
+// Functions, 1964, 26.7.5).
+double studentQuantile(double freedom)
+{
+    const double z = kLevelQuantile, z3 = z * z * z, z5 = z3 * z * z;
+    return z + (z3 + z) / (4 * freedom) + (5 * z5 + 16 * z3 + 3 * z) / (96 * freedom * freedom);
+}
+
+// By how much the mean error surely falls.
 double certainGain(const Candidate& usual, const Candidate& other)
 {
     const Eigen::ArrayXd gain = usual.errors - other.errors;
     const auto count = static_cast<double>(gain.size());
-    const double variance = (gain - gain.mean()).square().sum() / std::max(count - 1, 1.0);
-    return gain.mean() - kStandardErrors * std::sqrt(variance / count);
-}
-
-double decibelsOf(const Candidate& candidate)
-{
-    return -10 * std::log10(std::max(candidate.errors.mean(), 1e-12));
+    const double freedom = std::max(count - 1, 1.0);
+    const double variance = (gain - gain.mean()).square().sum() / freedom;
+    return gain.mean() - studentQuantile(freedom) * std::sqrt(variance / count);
 }
 
 const Candidate& bestOf(const std::vector<Candidate>& candidates, bool layersAlone)
@@ -120,18 +75,18 @@ const Candidate& bestOf(const std::vector<Candidate>& candidates, bool layersAlo
 
 } // namespace
 
-ResidualFit chooseResidualFit(const ResidualRows& rows, std::span<const Light> lights, float peak,
+ResidualFit chooseResidualFit(const ResidualRows& rows, std::span<const Light> lights, const ResidualJudge& judge,
                               ResidualChoice choice)
 {
-    const std::vector<Candidate> candidates = candidatesOf(rows, lights, peak);
+    const std::vector<Candidate> candidates = candidatesOf(rows, lights, judge);
     const bool forced = choice == ResidualChoice::difference;
     const Candidate& best = bestOf(candidates, forced);
     const Candidate& layer = best.hasLayer ? best : bestOf(candidates, true);
     ResidualFit fit{.trust = layer.trust,
                     .penalty = layer.penalty,
-                    .brdfPsnr = decibelsOf(candidates.front()),
-                    .layerPsnr = decibelsOf(layer),
-                    .layerError = layer.errors.mean()};
+                    .brdfPsnr = meanDecibels(candidates.front().errors),
+                    .layerPsnr = meanDecibels(layer.errors),
+                    .layerErrors = {layer.errors.begin(), layer.errors.end()}};
     fit.isKept = forced || (best.hasLayer && fit.layerPsnr > fit.brdfPsnr + kResidualMargin);
     return fit;
 }

@@ -5,8 +5,8 @@
 
 #include <fmt/format.h>
 
-#include "acquisition/residual/principal_components.h"
 #include "acquisition/residual/residual_choice.h"
+#include "acquisition/residual/residual_components.h"
 #include "acquisition/residual/residual_encoder.h"
 #include "engine/scene/error.h"
 #include "engine/scene/measures.h"
@@ -16,7 +16,6 @@ namespace {
 
 constexpr size_t kFewestLights = 6; // three for the plane through them, as many again to judge it
 constexpr double kLeastHullArea = 1e-3;
-constexpr double kTruncationShare = 0.1; // of the error that lights left out have: at most 0.4 dB of it
 
 // The cost of judging grows with the square of the lights.
 size_t samplePixels(size_t lights)
@@ -66,44 +65,6 @@ float peakOf(const ResidualRows& rows, const std::vector<Light>& lights)
     return std::max(quantile(values, 0.99), 1e-12f);
 }
 
-// Squared error over peak, clipped as PSNR clips it, of a sample whose residuals are only known up to `left`.
-double truncationError(const ResidualRows& rows, const Eigen::MatrixXf& left, const std::vector<Light>& lights,
-                       float peak)
-{
-    const auto count = static_cast<Eigen::Index>(lights.size());
-    double sum = 0;
-    for (Eigen::Index row = 0; row < rows.observed.rows(); ++row) {
-        for (Eigen::Index i = 0; i < count; ++i) {
-            const float scale = lights[i].irradiance[row % 3] / peak, truth = rows.observed(row, i);
-            const float guess = truth - left(row / 3, row % 3 * count + i);
-            const float error = std::clamp(scale * truth, 0.0f, 1.0f) - std::clamp(scale * guess, 0.0f, 1.0f);
-            sum += double{error} * error;
-        }
-    }
-    return sum / static_cast<double>(std::max<Eigen::Index>(rows.observed.size(), 1));
-}
-
-// The first components that are good enough, at most as many as the bytes allow.
-Eigen::MatrixXf enoughComponents(const ResidualRows& rows, const std::vector<Light>& lights, float peak,
-                                 const ResidualOptions& options, size_t most, ResidualReport& report)
-{
-    Eigen::MatrixXf left = residualsOf(rows, report.fit.trust);
-    const Eigen::MatrixXf basis = principalComponents(left, static_cast<int>(most));
-    const Eigen::MatrixXf amounts = left * basis;
-    const double target = options.toleranceDecibels > 0 ? std::pow(10.0, -options.toleranceDecibels / 10)
-                                                        : kTruncationShare * report.fit.layerError;
-    Eigen::Index count = 0;
-    double error = truncationError(rows, left, lights, peak);
-    while (count < basis.cols() && (error > target || count == 0)) {
-        left -= amounts.col(count) * basis.col(count).transpose();
-        error = truncationError(rows, left, lights, peak);
-        ++count;
-    }
-    report.components = static_cast<int>(count);
-    report.capturedPsnr = -10 * std::log10(std::max(error, 1e-12));
-    return basis.leftCols(count);
-}
-
 // Bytes of one component: its picture on the shaded pixels and its weights.
 size_t bytesPerComponent(size_t pixels, size_t lights)
 {
@@ -142,8 +103,8 @@ ResidualLayer estimateResidual(const Surface& surface, const ResidualOptions& op
         return {};
     }
     const ResidualRows rows = sampleRows(surface, eachBlock, pixels, samplePixels(lights.size()));
-    const float peak = peakOf(rows, lights);
-    report.fit = chooseResidualFit(rows, lights, peak, options.choice);
+    const ResidualJudge judge(rows, lights, peakOf(rows, lights));
+    report.fit = chooseResidualFit(rows, lights, judge, options.choice);
     const size_t each = bytesPerComponent(pixels, lights.size());
     const size_t afforded = options.budgetBytes > 0 ? options.budgetBytes / each : kMostResidualComponents;
     if (report.fit.isKept && afforded == 0) {
@@ -153,8 +114,8 @@ ResidualLayer estimateResidual(const Surface& surface, const ResidualOptions& op
     if (!report.fit.isKept) {
         return {};
     }
-    const Eigen::MatrixXf basis =
-        enoughComponents(rows, lights, peak, options, std::min<size_t>(afforded, kMostResidualComponents), report);
+    const Eigen::MatrixXf basis = chooseComponents(rows, judge, options.toleranceDecibels,
+                                                   std::min<size_t>(afforded, kMostResidualComponents), report);
     report.bytes = each * static_cast<size_t>(report.components);
     ResidualEncoder encoder(surface, nodes, report.fit, rows, basis);
     eachBlock([&](const Observations& block) { encoder.encode(block, options.threads); });

@@ -1,5 +1,6 @@
 #pragma once
 #include <string>
+#include <vector>
 
 #include "acquisition/residual/residual_options.h"
 
@@ -8,11 +9,11 @@ namespace nacre {
 // How the residual between captured lights is guessed, judged by leaving each light out in turn.
 struct ResidualFit {
     bool isKept = false;
-    float trust = 1;       // share of the BRDF's radiance that stays
-    double penalty = 0;    // of the spline
-    double brdfPsnr = 0;   // dB of radiance of the lights left out, by the BRDF alone
-    double layerPsnr = 0;  // and with the layer
-    double layerError = 0; // squared, of peak 1
+    float trust = 1;                 // share of the BRDF's radiance that stays
+    double penalty = 0;              // of the spline
+    double brdfPsnr = 0;             // dB of radiance under the lights left out, their mean, by the BRDF alone
+    double layerPsnr = 0;            // and with the layer
+    std::vector<double> layerErrors; // squared, of peak 1: one a light
 };
 
 // The margin by which a layer has to predict lights left out better than the BRDF alone.

@@ -98,5 +98,25 @@ TEST_F(DiscordantPhotographs, ADimmedOneIsCorrectedAndKept)
     EXPECT_TRUE(estimate().leftOut.empty());
 }
 
+// What stands before a lamp shades one photograph unevenly: no other photograph pays for it.
+TEST_F(DiscordantPhotographs, AnUnevenlyShadedOneLeavesTheOthersIntensitiesAlone)
+{
+    const auto shade = [](const Image& image, int x) {
+        return 0.55f + 0.45f * static_cast<float>(x) / static_cast<float>(image.width);
+    };
+    const Rig measured = estimate(false).rig;
+    for (const size_t shaded : {0, 3, 6, 9}) {
+        SCOPED_TRACE(shaded);
+        replace(shaded, [&](const Image& image, int x, int y) { return image.rgb(x, y) * shade(image, x); });
+        const NormalEstimate result = estimate();
+        for (size_t i = 0; i < result.given.size(); ++i) {
+            if (result.given[i] != shaded) {
+                EXPECT_EQ(result.rig.lights[i].irradiance, measured.lights[result.given[i]].irradiance);
+            }
+        }
+        replace(shaded, [&](const Image& image, int x, int y) { return image.rgb(x, y) / shade(image, x); });
+    }
+}
+
 } // namespace
 } // namespace nacre

@@ -7,6 +7,7 @@
 #include "acquisition/residual/light_spline.h"
 #include "acquisition/residual/principal_components.h"
 #include "acquisition/residual/residual_choice.h"
+#include "acquisition/residual/residual_components.h"
 #include "acquisition/residual/residual_estimate.h"
 #include "engine/scene/residual_layer.h"
 #include "tests/support/expect_error.h"
@@ -127,16 +128,21 @@ ResidualRows rowsOf(const std::vector<Light>& lights, float amount)
     return rows;
 }
 
+ResidualFit fitOf(const ResidualRows& rows, const std::vector<Light>& lights, ResidualChoice choice)
+{
+    return chooseResidualFit(rows, lights, ResidualJudge(rows, lights, 1), choice);
+}
+
 TEST(ResidualChoice, KeepsNothingWhereTheBrdfIsRight)
 {
     const std::vector<Light> lights = lightsOf(spiral(24));
-    EXPECT_FALSE(chooseResidualFit(rowsOf(lights, 0), lights, 1, ResidualChoice::automatic).isKept);
+    EXPECT_FALSE(fitOf(rowsOf(lights, 0), lights, ResidualChoice::automatic).isKept);
 }
 
 TEST(ResidualChoice, KeepsWhatIsSmoothOverLights)
 {
     const std::vector<Light> lights = lightsOf(spiral(24));
-    const ResidualFit fit = chooseResidualFit(rowsOf(lights, 0.3f), lights, 1, ResidualChoice::automatic);
+    const ResidualFit fit = fitOf(rowsOf(lights, 0.3f), lights, ResidualChoice::automatic);
     EXPECT_TRUE(fit.isKept);
     EXPECT_EQ(fit.trust, 1); // the highlight is the BRDF's
     EXPECT_GT(fit.layerPsnr, fit.brdfPsnr + 6);
@@ -145,7 +151,32 @@ TEST(ResidualChoice, KeepsWhatIsSmoothOverLights)
 TEST(ResidualChoice, IsMadeWhereItIsInsistedOn)
 {
     const std::vector<Light> lights = lightsOf(spiral(24));
-    EXPECT_TRUE(chooseResidualFit(rowsOf(lights, 0), lights, 1, ResidualChoice::difference).isKept);
+    EXPECT_TRUE(fitOf(rowsOf(lights, 0), lights, ResidualChoice::difference).isKept);
+}
+
+// All errors lie under one light: that says nothing of the others.
+TEST(ResidualChoice, StaysAtTheUsualSettingWhereOneLightSpeaksAlone)
+{
+    const std::vector<Light> lights = lightsOf(spiral(8));
+    ResidualRows rows = rowsOf(lights, 0);
+    rows.observed.col(3).array() += 0.3f;
+    const ResidualFit fit = fitOf(rows, lights, ResidualChoice::difference);
+    EXPECT_EQ(fit.trust, 0.5f);
+    EXPECT_EQ(fit.penalty, 1e-2);
+}
+
+TEST(ResidualComponents, LeaveOutNoMoreThanIsAllowed)
+{
+    const std::vector<Light> lights = lightsOf(spiral(24));
+    const ResidualRows rows = rowsOf(lights, 0.3f);
+    const ResidualJudge judge(rows, lights, 1);
+    ResidualReport report;
+    report.fit = chooseResidualFit(rows, lights, judge, ResidualChoice::automatic);
+    const Eigen::MatrixXf few = chooseComponents(rows, judge, 0, 20, report);
+    // rowsOf's residual is of rank two, and one of the two is not enough.
+    EXPECT_EQ(few.cols(), 2);
+    EXPECT_EQ(chooseComponents(rows, judge, 10, 20, report).cols(), 1);
+    EXPECT_GT(report.capturedPsnr, 10);
 }
 
 // A block that shows residualSurface's BRDF and its layer under the captured lights.
