@@ -13,38 +13,36 @@ VkBuffer createBuffer(VkDevice device, VkDeviceSize bytes, VkBufferUsageFlags us
     return buffer;
 }
 
-VkDeviceMemory allocateMappable(const Context& context, VkBuffer buffer)
+uint32_t memoryTypeOf(const Context& context, uint32_t typeBits, Memory memory)
+{
+    if (memory == Memory::device) {
+        return context.memoryType(typeBits, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT);
+    }
+    // Cached memory reads frames back at the speed of memory instead of the bus's.
+    return context.memoryType(typeBits, VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT,
+                              VK_MEMORY_PROPERTY_HOST_CACHED_BIT);
+}
+
+VkDeviceMemory allocate(const Context& context, VkBuffer buffer, Memory kind)
 {
     VkMemoryRequirements requirements;
     vkGetBufferMemoryRequirements(context.device(), buffer, &requirements);
-    // Cached memory reads frames back at the speed of memory instead of the bus's.
-    const uint32_t type = context.memoryType(requirements.memoryTypeBits,
-                                             VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT,
-                                             VK_MEMORY_PROPERTY_HOST_CACHED_BIT);
-    const VkMemoryAllocateInfo info{
-        .sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO, .allocationSize = requirements.size, .memoryTypeIndex = type};
+    const VkMemoryAllocateInfo info{.sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO,
+                                    .allocationSize = requirements.size,
+                                    .memoryTypeIndex = memoryTypeOf(context, requirements.memoryTypeBits, kind)};
     VkDeviceMemory memory = VK_NULL_HANDLE;
     checkVulkan(vkAllocateMemory(context.device(), &info, nullptr, &memory), "vkAllocateMemory");
     return memory;
 }
 
-} // namespace
-
-Buffer::Buffer(const Context& context, VkDeviceSize bytes, VkBufferUsageFlags usage)
-    : buffer_(context.device(), createBuffer(context.device(), bytes, usage)), bytes_(bytes)
-{
-    memory_ = {context.device(), allocateMappable(context, buffer_.get())};
-    checkVulkan(vkBindBufferMemory(context.device(), buffer_.get(), memory_.get(), 0), "vkBindBufferMemory");
-    checkVulkan(vkMapMemory(context.device(), memory_.get(), 0, VK_WHOLE_SIZE, 0, &mapped_), "vkMapMemory");
-}
-
-void makeVisibleToHost(VkCommandBuffer commands, const Buffer& buffer)
+void barrierAfterCopy(VkCommandBuffer commands, const Buffer& buffer, VkPipelineStageFlags2 stages,
+                      VkAccessFlags2 access)
 {
     const VkBufferMemoryBarrier2 barrier{.sType = VK_STRUCTURE_TYPE_BUFFER_MEMORY_BARRIER_2,
                                          .srcStageMask = VK_PIPELINE_STAGE_2_COPY_BIT,
                                          .srcAccessMask = VK_ACCESS_2_TRANSFER_WRITE_BIT,
-                                         .dstStageMask = VK_PIPELINE_STAGE_2_HOST_BIT,
-                                         .dstAccessMask = VK_ACCESS_2_HOST_READ_BIT,
+                                         .dstStageMask = stages,
+                                         .dstAccessMask = access,
                                          .srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
                                          .dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
                                          .buffer = buffer.get(),
@@ -52,6 +50,29 @@ void makeVisibleToHost(VkCommandBuffer commands, const Buffer& buffer)
     const VkDependencyInfo dependency{
         .sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO, .bufferMemoryBarrierCount = 1, .pBufferMemoryBarriers = &barrier};
     vkCmdPipelineBarrier2(commands, &dependency);
+}
+
+} // namespace
+
+Buffer::Buffer(const Context& context, VkDeviceSize bytes, VkBufferUsageFlags usage, Memory memory)
+    : buffer_(context.device(), createBuffer(context.device(), bytes, usage)), bytes_(bytes)
+{
+    memory_ = {context.device(), allocate(context, buffer_.get(), memory)};
+    checkVulkan(vkBindBufferMemory(context.device(), buffer_.get(), memory_.get(), 0), "vkBindBufferMemory");
+    if (memory == Memory::shared) {
+        checkVulkan(vkMapMemory(context.device(), memory_.get(), 0, VK_WHOLE_SIZE, 0, &mapped_), "vkMapMemory");
+    }
+}
+
+void makeVisibleToHost(VkCommandBuffer commands, const Buffer& buffer)
+{
+    barrierAfterCopy(commands, buffer, VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT);
+}
+
+void makeVisibleToDevice(VkCommandBuffer commands, const Buffer& buffer)
+{
+    barrierAfterCopy(commands, buffer, VK_PIPELINE_STAGE_2_COPY_BIT | VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT,
+                     VK_ACCESS_2_TRANSFER_READ_BIT | VK_ACCESS_2_SHADER_SAMPLED_READ_BIT);
 }
 
 } // namespace nacre

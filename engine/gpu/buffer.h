@@ -6,14 +6,16 @@
 
 namespace nacre {
 
-// Memory that host and device share, mapped for its whole life and coherent: writes need no flush.
+// shared by host and device: mapped for its whole life and coherent, so that writes need no flush. device: its own.
+enum class Memory { shared, device };
+
 class Buffer {
 public:
     Buffer() = default;
-    Buffer(const Context& context, VkDeviceSize bytes, VkBufferUsageFlags usage);
+    Buffer(const Context& context, VkDeviceSize bytes, VkBufferUsageFlags usage, Memory memory = Memory::shared);
 
     VkBuffer get() const { return buffer_.get(); }
-    void* mapped() const { return mapped_; }
+    void* mapped() const { return mapped_; } // null where the memory is the device's own
     VkDeviceSize bytes() const { return bytes_; }
 
 private:
@@ -25,5 +27,7 @@ private:
 
 // After copies into the buffer, so that the host reads what they wrote once the commands are done.
 void makeVisibleToHost(VkCommandBuffer commands, const Buffer& buffer);
+// After copies into it, so that copies from it and shaders read what they wrote.
+void makeVisibleToDevice(VkCommandBuffer commands, const Buffer& buffer);
 
 } // namespace nacre

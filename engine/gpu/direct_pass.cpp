@@ -24,8 +24,7 @@ void fillHorizon(DirectConstants& constants, const LightGroups& lights, size_t f
 
 DirectPass::DirectPass(const Context& context)
     : context_(context), nearest_(makeSampler(context, VK_FILTER_NEAREST)),
-      linear_(makeSampler(context, VK_FILTER_LINEAR)),
-      noHorizon_(uploadLayers(context, {1, 1, 1}, 1, kByteFormat, kNoCodes))
+      linear_(makeSampler(context, VK_FILTER_LINEAR)), noHorizon_(uploadLayers(context, {1, 1, 1}, 1, kNoCodes))
 {
 }
 

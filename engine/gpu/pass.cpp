@@ -15,6 +15,11 @@ ShaderInput uniformInput(int binding, const Buffer& buffer, VkDeviceSize offset,
     return {.binding = static_cast<uint32_t>(binding), .buffer = {buffer.get(), offset, bytes}};
 }
 
+ShaderInput texelInput(int binding, const TexelBuffer& texels)
+{
+    return {.binding = static_cast<uint32_t>(binding), .texels = texels.view()};
+}
+
 void beginRendering(VkCommandBuffer commands, const Texture& target, Load load, VkRect2D area)
 {
     if (area.extent.width == 0) {
@@ -48,13 +53,16 @@ void draw(const Context& context, VkCommandBuffer commands, const Pipeline& pipe
     vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline.get());
     std::vector<VkWriteDescriptorSet> writes;
     for (const ShaderInput& input : inputs) {
-        const bool isBuffer = input.buffer.buffer != VK_NULL_HANDLE;
+        const bool isBuffer = input.buffer.buffer != VK_NULL_HANDLE, isTexels = input.texels != VK_NULL_HANDLE;
         writes.push_back({.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
                           .dstBinding = input.binding,
                           .descriptorCount = 1,
-                          .descriptorType = isBuffer ? kUniformInput : kTextureInput,
-                          .pImageInfo = isBuffer ? nullptr : &input.image,
-                          .pBufferInfo = isBuffer ? &input.buffer : nullptr});
+                          .descriptorType = isTexels   ? kTexelInput
+                                            : isBuffer ? kUniformInput
+                                                       : kTextureInput,
+                          .pImageInfo = &input.image,
+                          .pBufferInfo = &input.buffer,
+                          .pTexelBufferView = &input.texels});
     }
     context.pushDescriptorSet(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline.layout(), 0,
                               static_cast<uint32_t>(writes.size()), writes.data());

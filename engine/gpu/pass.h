@@ -6,22 +6,26 @@
 #include "engine/gpu/buffer.h"
 #include "engine/gpu/context.h"
 #include "engine/gpu/pipeline.h"
+#include "engine/gpu/texel_buffer.h"
 #include "engine/gpu/texture.h"
 
 namespace nacre {
 
-// What a shader reads: a texture through a sampler, or a part of a uniform buffer.
+// What a shader reads: a texture through a sampler, a part of a uniform buffer, or a buffer's texels.
 struct ShaderInput {
     uint32_t binding = 0; // number in shaders/shared/layout.h
     VkDescriptorImageInfo image{};
     VkDescriptorBufferInfo buffer{};
+    VkBufferView texels = VK_NULL_HANDLE;
 };
 
 ShaderInput textureInput(int binding, const Sampler& sampler, const Texture& texture);
 ShaderInput uniformInput(int binding, const Buffer& buffer, VkDeviceSize offset, VkDeviceSize bytes);
+ShaderInput texelInput(int binding, const TexelBuffer& texels);
 
 inline constexpr VkDescriptorType kTextureInput = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
 inline constexpr VkDescriptorType kUniformInput = VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
+inline constexpr VkDescriptorType kTexelInput = VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER;
 
 enum class Load { clear, keep }; // black and opaque, or what is there
 

@@ -1,25 +1,17 @@
 #include "engine/gpu/renderer.h"
 
 #include <algorithm>
-#include <array>
 #include <cassert>
 #include <cmath>
 
 #include <fmt/format.h>
 
-#include "ball_frag.h"
 #include "engine/scene/error.h"
 #include "engine/scene/sampled_pixels.h"
 #include "engine/scene/scene_residual.h"
-#include "shared/layout.h"
 
 namespace nacre {
 namespace {
-
-constexpr std::array kBallBindings = {
-    ShaderBinding{kBindingNormals, kTextureInput}, ShaderBinding{kBindingAlbedo, kTextureInput},
-    ShaderBinding{kBindingInput, kTextureInput}, ShaderBinding{kBindingResidual, kTextureInput},
-    ShaderBinding{kBindingResidualWeights, kUniformInput}};
 
 constexpr float kMiddleGrey = 0.2140f; // linear, of code 0.5: what a layer by itself is drawn about
 
@@ -36,9 +28,9 @@ bool dependsOnDisplay(Show show)
 } // namespace
 
 Renderer::Renderer(const Context& context, VkDeviceSize cacheBytes)
-    : context_(context), nearest_(makeSampler(context, VK_FILTER_NEAREST)), direct_(context), residualPass_(context),
-      balls_(context, direct_, cacheBytes), cacheBytes_(cacheBytes), directFrame_(context, direct_),
-      exposureFrame_(context, direct_), falseColours_(context)
+    : context_(context), direct_(context), residualPass_(context), balls_(context, direct_, cacheBytes),
+      cacheBytes_(cacheBytes), ballFrame_(context), directFrame_(context, direct_), exposureFrame_(context, direct_),
+      falseColours_(context)
 {
 }
 
@@ -53,6 +45,7 @@ void Renderer::setSurface(Surface surface, std::vector<BallSize> sizes)
     plain_ = isPlain(surface_);
     pixels_.reset();
     exposurePixels_.reset();
+    ballFrame_.reset();
     directFrame_.reset();
     exposureFrame_.reset();
     ballSizes_ = std::move(sizes);
@@ -90,6 +83,7 @@ void Renderer::setResidual(ResidualUse use)
 {
     if (use != residual_) {
         residual_ = use;
+        ballsAreStale_ = ballsAreStale_ || plain_; // see ballsAreCodes
         lightsHaveChanged();
     }
 }
@@ -97,6 +91,12 @@ void Renderer::setResidual(ResidualUse use)
 bool Renderer::hasResidual() const
 {
     return residual_ != ResidualUse::off && hasResidualFrom(surface_, view_);
+}
+
+// Of the display, rather than radiance to which something is done in each pixel.
+bool Renderer::ballsAreCodes() const
+{
+    return plain_ && !hasResidual();
 }
 
 DirectFrame::Inputs Renderer::inputs(float gain)
@@ -158,7 +158,7 @@ std::string Renderer::whyDirect()
             return fmt::format("the highlight of '{}' is too sharp for a ball", surface_.materials[i].name);
         }
     }
-    const VkDeviceSize bytes = BallCache::leastBytes(ballSizes(), !plain_, lights_.size());
+    const VkDeviceSize bytes = BallCache::leastBytes(ballSizes(), !ballsAreCodes(), lights_.size());
     if (bytes > cacheBytes_) {
         return fmt::format("the balls of {} material(s) take {} MiB, {} may be cached", surface_.materials.size(),
                            bytes >> 20, cacheBytes_ >> 20);
@@ -207,24 +207,6 @@ void Renderer::uploadLights()
     }
 }
 
-const Pipeline& Renderer::ballPipeline()
-{
-    static_assert(kConstantModulated == 0 && kConstantToneCurve == 1 && kConstantBallResidual == 2);
-    const std::array key = {int{!plain_}, display_.toneCurve,
-                            hasResidual() ? static_cast<int>(surface_.residual.layers()) : 0};
-    auto found = ballPipelines_.find(key);
-    if (found == ballPipelines_.end()) {
-        found = ballPipelines_
-                    .emplace(key, Pipeline(context_, {.fragmentShader = ball_frag,
-                                                      .constants = key,
-                                                      .bindings = kBallBindings,
-                                                      .pushConstantBytes = sizeof(BallConstants),
-                                                      .targetFormat = kCodeFormat}))
-                    .first;
-    }
-    return found->second;
-}
-
 void Renderer::drawInto(const std::function<void(VkCommandBuffer)>& record)
 {
     const Texture& codes = target().texture;
@@ -262,7 +244,7 @@ void Renderer::updateBalls()
     }
     uploadLights();
     if (ballsAreStale_) {
-        balls_.setMaterials(ballSizes(), !plain_);
+        balls_.setMaterials(ballSizes(), !ballsAreCodes());
         ballsAreStale_ = false;
     }
     balls_.setLights(residualFrame_.base);
@@ -276,21 +258,12 @@ void Renderer::drawBallPicture()
 {
     updateBalls();
     const PixelTextures& from = pixels();
-    const Texture& albedo = plain_ ? from.normals : from.albedo; // bound, but not read where plain
-    const Pipeline& frame = ballPipeline();
-    const BallConstants constants{.size = balls_.displaySize(),
-                                  .columns = static_cast<float>(balls_.columns()),
-                                  .materials = static_cast<int>(tables_.size())};
     static_cast<void>(inputs(std::exp2(display_.exposureStops)));
-    drawInto([&](VkCommandBuffer commands) {
-        beginRendering(commands, picture_->texture, Load::clear);
-        const std::array shaderInputs = {textureInput(kBindingNormals, nearest_, from.normals),
-                                         textureInput(kBindingAlbedo, nearest_, albedo),
-                                         textureInput(kBindingInput, nearest_, balls_.displayBalls()),
-                                         residualPass_.components(from), residualPass_.weights()};
-        draw(context_, commands, frame, shaderInputs, bytesOf(constants));
-        vkCmdEndRendering(commands);
-    });
+    const BallFrame::Inputs lit{.balls = balls_,
+                                .materials = static_cast<int>(tables_.size()),
+                                .toneCurve = display_.toneCurve,
+                                .residual = hasResidual() ? &residualPass_ : nullptr};
+    drawInto([&](VkCommandBuffer commands) { ballFrame_.record(commands, from, lit, picture_->texture); });
 }
 
 void Renderer::drawPicture()
@@ -361,8 +334,8 @@ Frame Renderer::render(const Scene& scene)
 
 VkDeviceSize Renderer::deviceBytes() const
 {
-    VkDeviceSize bytes =
-        balls_.bytes() + groups_.bytes() + directFrame_.bytes() + exposureFrame_.bytes() + residualPass_.bytes();
+    VkDeviceSize bytes = balls_.bytes() + groups_.bytes() + ballFrame_.bytes() + directFrame_.bytes() +
+                         exposureFrame_.bytes() + residualPass_.bytes();
     for (const TableTexture& table : tables_) {
         bytes += table.texture.bytes();
     }

@@ -1,16 +1,13 @@
 #pragma once
-#include <array>
 #include <functional>
-#include <map>
 #include <optional>
 #include <span>
 #include <vector>
 
-#include "engine/gpu/ball_cache.h"
+#include "engine/gpu/ball_frame.h"
 #include "engine/gpu/direct_frame.h"
 #include "engine/gpu/false_colour_pass.h"
 #include "engine/gpu/light_groups.h"
-#include "engine/gpu/residual_pass.h"
 #include "engine/gpu/surface_textures.h"
 #include "engine/scene/scene.h"
 
@@ -81,8 +78,8 @@ private:
     Target& target();
     void uploadLights();
     void lightsHaveChanged();
-    const Pipeline& ballPipeline();
     bool hasResidual() const;
+    bool ballsAreCodes() const;
     // With the weights of the frame's lights, `gain` times, uploaded.
     DirectFrame::Inputs inputs(float gain);
     // Draws into the picture's target, from black.
@@ -92,15 +89,14 @@ private:
     void drawFalseColours();
 
     const Context& context_;
-    Sampler nearest_;
     DirectPass direct_;
     ResidualPass residualPass_;
     BallCache balls_;
     VkDeviceSize cacheBytes_;
+    BallFrame ballFrame_;
     DirectFrame directFrame_;
     DirectFrame exposureFrame_; // of exposurePixels_
     FalseColourPass falseColours_;
-    std::map<std::array<int, 3>, Pipeline> ballPipelines_; // by modulated, tone curve and texels of components
 
     Surface surface_;
     bool plain_ = false;

@@ -1,8 +1,10 @@
 #pragma once
+#include <array>
 #include <map>
 
 #include "engine/gpu/pass.h"
 #include "engine/gpu/surface_textures.h"
+#include "shared/layout.h"
 
 namespace nacre {
 
@@ -16,17 +18,20 @@ public:
     // Adds to the target, which has kFloatFormat and is being rendered to; its row 0 is the surface's firstRow.
     void record(VkCommandBuffer commands, const PixelTextures& pixels, int materials, int firstRow);
 
-    // What other shaders that include residual_input.glsl read. Bound but not read where the pixels have no layer.
-    ShaderInput components(const PixelTextures& pixels) const;
-    ShaderInput weights() const;
+    // What shaders that include residual_input.glsl read, of pixels that have a layer.
+    static constexpr std::array kBindings = {ShaderBinding{kBindingResidual, kTexelInput},
+                                             ShaderBinding{kBindingResidualWeights, kTexelInput}};
+    std::array<ShaderInput, 2> inputs(const PixelTextures& pixels) const;
+
     VkDeviceSize bytes() const { return weights_.bytes(); }
 
 private:
+    const Pipeline& pipeline(const PixelTextures& pixels);
+
     const Context& context_;
-    std::map<std::pair<int, int>, Pipeline> pipelines_; // by packed and layers
+    std::map<std::array<int, 3>, Pipeline> pipelines_; // by packed, fours of components and modulated
     Sampler nearest_;
-    Buffer weights_;
-    Texture noComponents_;
+    TexelBuffer weights_;
 };
 
 } // namespace nacre

@@ -1,5 +1,7 @@
 #include "engine/gpu/surface_textures.h"
 
+#include <algorithm>
+
 #include "engine/scene/coverage.h"
 #include "shared/ball.h"
 
@@ -38,11 +40,24 @@ std::vector<glm::vec4> albedoTexels(const Surface& surface)
     return texels;
 }
 
+// The layer's texels lie picture by picture; the shader fetches all of a pixel's, which is quickest from one place.
+TexelBuffer uploadResidual(const Context& context, const ResidualLayer& layer)
+{
+    return uploadTexels(context, kIntegersFormat, layer.codes.size(), [&](uint8_t* to) {
+        for (size_t pixel = 0; pixel < layer.pixelCount(); ++pixel) {
+            for (size_t i = 0; i < layer.layers(); ++i, to += kComponentsPerTexel) {
+                std::copy_n(&layer.codes[(i * layer.pixelCount() + pixel) * kComponentsPerTexel], kComponentsPerTexel,
+                            to);
+            }
+        }
+    });
+}
+
 } // namespace
 
 bool isPlain(const Surface& surface)
 {
-    return surface.materials.size() == 1 && surface.albedo.values.empty() && surface.residual.empty();
+    return surface.materials.size() == 1 && surface.albedo.values.empty();
 }
 
 PixelTextures uploadPixels(const Context& context, const Surface& surface, bool plain, Precision precision)
@@ -62,12 +77,12 @@ PixelTextures uploadPixels(const Context& context, const Surface& surface, bool 
             uploadTexture(context, VK_IMAGE_TYPE_2D, extent, full ? kFloatFormat : kHalfFormat, albedoTexels(surface));
     }
     if (!surface.horizon.empty()) {
-        textures.horizon = uploadLayers(context, extent, static_cast<uint32_t>(surface.horizon.azimuths), kByteFormat,
-                                        surface.horizon.codes);
+        textures.horizon =
+            uploadLayers(context, extent, static_cast<uint32_t>(surface.horizon.azimuths), surface.horizon.codes);
     }
     if (!surface.residual.empty()) {
-        textures.residual = uploadLayers(context, extent, static_cast<uint32_t>(surface.residual.layers()),
-                                         kIntegersFormat, surface.residual.codes);
+        textures.residual = uploadResidual(context, surface.residual);
+        textures.residualFours = (surface.residual.components + 3) / 4;
     }
     return textures;
 }

@@ -1,6 +1,7 @@
 #pragma once
 #include <vector>
 
+#include "engine/gpu/texel_buffer.h"
 #include "engine/gpu/texture.h"
 #include "engine/scene/surface.h"
 
@@ -15,13 +16,20 @@ struct PixelTextures {
     // full: xyz, w = confidence, all 0 without data. compact: packed. Where the surface is plain, pixels without its
     // material count as without data.
     Texture normals;
-    Texture albedo;   // rgb, w = material index; empty where the surface is plain
-    Texture horizon;  // an array of azimuths; empty where nothing casts shadows
-    Texture residual; // an array of kComponentsPerTexel a texel; empty where there is no layer
+    Texture albedo;        // rgb, w = material index; empty where the surface is plain
+    Texture horizon;       // an array of azimuths; empty where nothing casts shadows
+    TexelBuffer residual;  // of kIntegersFormat, a pixel's components side by side; empty where there is no layer
+    int residualFours = 0; // components, in fours
     VkDeviceSize bytes() const { return normals.bytes() + albedo.bytes() + horizon.bytes() + residual.bytes(); }
 };
 
-// One material whose albedo factor is 1, and no residual layer: the normals say it all.
+// The albedo's texture, or one that shaders which do not read it may be given in its place.
+inline const Texture& albedoOrAny(const PixelTextures& pixels)
+{
+    return pixels.albedo.bytes() > 0 ? pixels.albedo : pixels.normals;
+}
+
+// One material whose albedo factor is 1: but for a residual layer the normals say it all.
 bool isPlain(const Surface& surface);
 
 // The pixels of `surface`; `plain` says what isPlain does of the whole of which they are.

@@ -141,12 +141,11 @@ Texture uploadTexture(const Context& context, VkImageType type, VkExtent3D exten
     return texture;
 }
 
-Texture uploadLayers(const Context& context, VkExtent3D extent, uint32_t layers, VkFormat format,
-                     std::span<const uint8_t> texels)
+Texture uploadLayers(const Context& context, VkExtent3D extent, uint32_t layers, std::span<const uint8_t> texels)
 {
-    assert(texels.size() == size_t{extent.width} * extent.height * layers * (format == kIntegersFormat ? 16 : 1));
+    assert(texels.size() == size_t{extent.width} * extent.height * layers);
     Texture texture(context, {.extent = extent,
-                              .format = format,
+                              .format = kByteFormat,
                               .usage = VK_IMAGE_USAGE_TRANSFER_DST_BIT | VK_IMAGE_USAGE_SAMPLED_BIT,
                               .layers = layers});
     copyToTexture(context, texture, texels);
@@ -158,7 +157,7 @@ Texture makeTarget(const Context& context, VkExtent3D extent, VkFormat format)
     return Texture(context, {.extent = extent,
                              .format = format,
                              .usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT |
-                                      VK_IMAGE_USAGE_TRANSFER_SRC_BIT});
+                                      VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT});
 }
 
 void requirePictureSize(const Context& context, int width, int height)

@@ -56,12 +56,10 @@ private:
 Texture uploadTexture(const Context& context, VkImageType type, VkExtent3D extent, VkFormat format,
                       std::span<const glm::vec4> texels);
 
-// A 2D array of kByteFormat or kIntegersFormat, as bytes, for shaders to read, layer by layer. Throws Error beyond the
-// device's limits.
-Texture uploadLayers(const Context& context, VkExtent3D extent, uint32_t layers, VkFormat format,
-                     std::span<const uint8_t> texels);
+// A 2D array of kByteFormat for shaders to read, layer by layer. Throws Error beyond the device's limits.
+Texture uploadLayers(const Context& context, VkExtent3D extent, uint32_t layers, std::span<const uint8_t> texels);
 
-// A 2D texture to draw to and to read or copy from.
+// A 2D texture to draw or copy to, and to read or copy from.
 Texture makeTarget(const Context& context, VkExtent3D extent, VkFormat format);
 
 // Throws Error where a picture of this size is beyond the device's limits (or empty).

@@ -14,8 +14,8 @@ const int kBindingLights = 3;  // uniform buffer of kLightsPerGroup LightFrame
 const int kBindingInput = 4;   // sampled 2D: what an earlier pass drew (radiance, or balls)
 const int kBindingHorizon = 5; // sampled 2D array: a layer an azimuth, codes of horizon.h / 255
 
-const int kBindingResidual = 6;        // sampled 2D array of integers: codes of components, see residual.h
-const int kBindingResidualWeights = 7; // uniform buffer: ResidualWeights
+const int kBindingResidual = 6;        // texel buffer of integers: codes of components, see residual.h
+const int kBindingResidualWeights = 7; // texel buffer: ResidualWeights
 
 // Alpha of radiance is cleared to 1 and counts up by what asks for unmeasured directions.
 const float kUnmeasuredAlpha = 1.5f;
@@ -24,19 +24,20 @@ const float kUnmeasuredAlpha = 1.5f;
 const int kLightsPerGroup = 4;
 
 // Index of a specialisation constant, one meaning a shader.
-const int kConstantLightCount = 0;    // direct.frag: lights of the group, 1 to kLightsPerGroup
-const int kConstantCoordinates = 1;   // direct.frag: of the table
-const int kConstantOneMaterial = 2;   // direct.frag: all pixels have it and albedo 1
-const int kConstantPacked = 3;        // direct.frag: normals are packed
-const int kConstantCoverage = 4;      // direct.frag: counts what asks for unmeasured directions
-const int kConstantShadows = 5;       // direct.frag: the height casts shadows
-const int kConstantModulated = 0;     // ball.frag, ball_display.frag, floor.frag, false_colour.frag: factors and labels
-const int kConstantToneCurve = 1;     // ball.frag, ball_display.frag, display.frag
-const int kConstantBallResidual = 2;  // ball.frag: texels of residual components, 0 where there are none
-const int kConstantPackedNormals = 0; // residual.frag
-const int kConstantResidualLayers = 1; // residual.frag: texels of components
-const int kConstantHatched = 0;        // display.frag: stripes where something unmeasured was asked for
-const int kConstantShow = 1;           // false_colour.frag
+const int kConstantLightCount = 0;        // direct.frag: lights of the group, 1 to kLightsPerGroup
+const int kConstantCoordinates = 1;       // direct.frag: of the table
+const int kConstantOneMaterial = 2;       // direct.frag: all pixels have it and albedo 1
+const int kConstantPacked = 3;            // direct.frag: normals are packed
+const int kConstantCoverage = 4;          // direct.frag: counts what asks for unmeasured directions
+const int kConstantShadows = 5;           // direct.frag: the height casts shadows
+const int kConstantModulated = 0;         // ball*.frag, floor.frag, false_colour.frag: factors and labels
+const int kConstantToneCurve = 1;         // ball*.frag, display.frag
+const int kConstantBallResidual = 2;      // ball_residual.frag: components, in fours
+const int kConstantPackedNormals = 0;     // residual.frag
+const int kConstantResidualFours = 1;     // residual.frag: components, in fours
+const int kConstantResidualModulated = 2; // residual.frag: pixels have labels
+const int kConstantHatched = 0;           // display.frag: stripes where something unmeasured was asked for
+const int kConstantShow = 1;              // false_colour.frag
 
 struct DirectConstants {
     vec4 view;                     // xyz unit, towards the viewer; w unused
@@ -46,11 +47,15 @@ struct DirectConstants {
     vec4 horizon[kLightsPerGroup]; // horizonLookup of each light, where there are shadows
 };
 
-// Of ball.frag: balls of one size lie side by side in one texture, material 0 at the top left.
+// Codes of ball_residual.frag's pixels, four to a texel of its target.
+const int kPixelsPerTexel = 4;
+
+// Of ball.frag and ball_residual.frag: balls of one size lie side by side in one texture, material 0 at the top left.
 struct BallConstants {
     int size;      // texels across one ball
     float columns; // balls side by side
     int materials; // balls in all
+    int width;     // pixels, of the picture
 };
 
 // Of ball_display.frag: one ball is stretched and encoded into its place.
@@ -64,6 +69,7 @@ struct BallDisplayConstants {
 struct ResidualConstants {
     int materials; // pixels of others are not shown
     int firstRow;  // of the surface, in the target's row 0
+    int width;     // pixels, of the surface
 };
 
 struct DisplayConstants {

@@ -6,9 +6,10 @@
 NACRE_SHARED_BEGIN
 
 const int kComponentsPerTexel = 16; // a byte each of four 32-bit integers
-const int kMostResidualLayers = 4;  // of texels
+const int kFoursPerTexel = kComponentsPerTexel / 4;
+const int kMostResidualLayers = 4; // of texels
 
-// The weights under the lights of one frame. Scalar layout.
+// The weights under the lights of one frame, which shaders read as texels.
 struct ResidualWeights {
     vec4 offset;                                           // RGB radiance of codes 0
     vec4 gains[kMostResidualLayers * kComponentsPerTexel]; // RGB radiance of each component's code 1 above it

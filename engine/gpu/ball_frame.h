@@ -1,0 +1,41 @@
+#pragma once
+#include <array>
+#include <map>
+
+#include "engine/gpu/ball_cache.h"
+#include "engine/gpu/residual_pass.h"
+
+namespace nacre {
+
+// Draws pictures from balls: one lookup a pixel, and what a residual layer adds to it.
+class BallFrame {
+public:
+    explicit BallFrame(const Context& context);
+
+    struct Inputs {
+        const BallCache& balls; // modulated ones where the pixels have albedo factors or there is a layer
+        int materials;
+        int toneCurve;
+        const ResidualPass* residual; // null: nothing is added. Its weights know the exposure.
+    };
+
+    // Drops what was made for another surface.
+    void reset();
+    // `codes` has kCodeFormat and the size of `pixels`; it is in kDrawnTo.
+    void record(VkCommandBuffer commands, const PixelTextures& pixels, const Inputs& inputs, const Texture& codes);
+
+    VkDeviceSize bytes() const { return fours_.bytes() + copied_.bytes(); }
+
+private:
+    const Pipeline& pipeline(const PixelTextures& pixels, const Inputs& inputs);
+    void recordDraw(VkCommandBuffer commands, const PixelTextures& pixels, const Inputs& inputs, const Texture& target);
+    void copyFours(VkCommandBuffer commands, const Texture& codes);
+
+    const Context& context_;
+    Sampler nearest_;
+    std::map<std::array<int, 3>, Pipeline> pipelines_; // by modulated, tone curve and fours of components
+    Texture fours_;                                    // kPixelsPerTexel pixels a texel, where a layer is added
+    Buffer copied_;                                    // its texels, on the way to the picture
+};
+
+} // namespace nacre
