@@ -91,4 +91,10 @@ ResidualFit chooseResidualFit(const ResidualRows& rows, std::span<const Light> l
     return fit;
 }
 
+double lossByErrors(const ResidualFit& fit, const Eigen::ArrayXd& errors)
+{
+    const auto layer = Eigen::Map<const Eigen::ArrayXd>(fit.layerErrors.data(), errors.size());
+    return meanDecibels(layer) - meanDecibels(layer + errors);
+}
+
 } // namespace nacre

@@ -12,4 +12,7 @@ namespace nacre {
 ResidualFit chooseResidualFit(const ResidualRows& rows, std::span<const Light> lights, const ResidualJudge& judge,
                               ResidualChoice choice);
 
+// dB that errors of another kind, one a light, cost under lights left out.
+double lossByErrors(const ResidualFit& fit, const Eigen::ArrayXd& errors);
+
 } // namespace nacre

@@ -28,10 +28,9 @@ Eigen::MatrixXf chooseComponents(const ResidualRows& rows, const ResidualJudge& 
     const Eigen::MatrixXf amounts = residuals * basis;
     Eigen::MatrixXf captured = report.fit.trust * rows.predicted;
     Eigen::ArrayXd errors = judge.errors(captured);
-    const auto unseen = Eigen::Map<const Eigen::ArrayXd>(report.fit.layerErrors.data(), errors.size());
     const auto isEnough = [&] {
         return toleranceDecibels > 0 ? pooledDecibels(errors) >= toleranceDecibels
-                                     : meanDecibels(unseen) - meanDecibels(unseen + errors) < kComponentsLoss;
+                                     : lossByErrors(report.fit, errors) <= kComponentsLoss;
     };
     Eigen::Index count = 0;
     while (count < basis.cols() && (count == 0 || !isEnough())) {

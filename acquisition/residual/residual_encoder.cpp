@@ -10,7 +10,7 @@ namespace nacre {
 namespace {
 
 constexpr float kRangeReserve = 0.125f; // of the sample's range, on both sides
-constexpr size_t kPixelsAtOnce = 512;
+constexpr size_t kPixelsAtOnce = 128;
 
 void setRanges(const Eigen::MatrixXf& amounts, ResidualLayer& layer)
 {
@@ -42,9 +42,9 @@ std::vector<glm::vec3> splinesOf(const Eigen::MatrixXf& basis, const std::vector
 
 } // namespace
 
-ResidualEncoder::ResidualEncoder(const Surface& surface, const std::vector<glm::vec2>& nodes, const ResidualFit& fit,
-                                 const ResidualRows& sample, Eigen::MatrixXf basis)
-    : surface_(surface), basis_(std::move(basis))
+ResidualEncoder::ResidualEncoder(const Surface& surface, const LightBalls& balls, const std::vector<glm::vec2>& nodes,
+                                 const ResidualFit& fit, const ResidualRows& sample, Eigen::MatrixXf basis)
+    : surface_(surface), balls_(balls), basis_(std::move(basis))
 {
     layer.width = surface.normals.width;
     layer.height = surface.normals.height;
@@ -56,9 +56,32 @@ ResidualEncoder::ResidualEncoder(const Surface& surface, const std::vector<glm::
     setRanges(residualsOf(sample, fit.trust) * basis_, layer);
 }
 
+// [channel * lights + light]
+void ResidualEncoder::setResidual(const Observations& block, size_t place, std::span<const float> predicted,
+                                  float* residual) const
+{
+    const size_t lights = block.lightCount;
+    const auto radiance = block.radianceOf(place);
+    const auto saturated = block.saturatedOf(place);
+    for (size_t i = 0; i < lights; ++i) {
+        const glm::vec3 observed = radiance[i] / surface_.lights[i].light.irradiance;
+        for (size_t c = 0; c < 3; ++c) {
+            const float value = observed[static_cast<int>(c)], guess = predicted[c * lights + i];
+            residual[c * lights + i] = (saturated[i] != 0 ? std::max(value, guess) : value) - layer.trust * guess;
+        }
+    }
+}
+
 void ResidualEncoder::encodePixels(const Observations& block, std::span<const size_t> places)
 {
-    const Eigen::MatrixXf amounts = residualsOf(residualRows(block, places, surface_), layer.trust) * basis_;
+    using RowMajor = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+    RowMajor residuals(static_cast<Eigen::Index>(places.size()), basis_.rows());
+    std::vector<float> predicted(static_cast<size_t>(basis_.rows()));
+    for (size_t p = 0; p < places.size(); ++p) {
+        balls_.predict(block.pixels[places[p]], predicted);
+        setResidual(block, places[p], predicted, residuals.row(static_cast<Eigen::Index>(p)).data());
+    }
+    const RowMajor amounts = residuals * basis_;
     for (size_t p = 0; p < places.size(); ++p) {
         for (int k = 0; k < layer.components; ++k) {
             const float share =

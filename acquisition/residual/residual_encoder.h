@@ -1,4 +1,5 @@
 #pragma once
+#include "acquisition/residual/light_balls.h"
 #include "acquisition/residual/residual_choice.h"
 #include "engine/scene/surface.h"
 
@@ -8,18 +9,20 @@ namespace nacre {
 class ResidualEncoder {
 public:
     // `sample` sets the range of each component, with a reserve; what lies beyond is clamped. `basis`: orthonormal
-    // columns over [channel * lights + light]. The surface is referred to while the encoder lives.
-    ResidualEncoder(const Surface& surface, const std::vector<glm::vec2>& nodes, const ResidualFit& fit,
-                    const ResidualRows& sample, Eigen::MatrixXf basis);
+    // columns over [channel * lights + light]. Surface and balls are referred to while the encoder lives.
+    ResidualEncoder(const Surface& surface, const LightBalls& balls, const std::vector<glm::vec2>& nodes,
+                    const ResidualFit& fit, const ResidualRows& sample, Eigen::MatrixXf basis);
 
     void encode(const Observations& block, int threads);
 
     ResidualLayer layer;
 
 private:
+    void setResidual(const Observations& block, size_t place, std::span<const float> predicted, float* residual) const;
     void encodePixels(const Observations& block, std::span<const size_t> places);
 
     const Surface& surface_;
+    const LightBalls& balls_;
     Eigen::MatrixXf basis_;
 };
 

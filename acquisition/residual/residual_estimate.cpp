@@ -16,6 +16,8 @@ namespace {
 
 constexpr size_t kFewestLights = 6; // three for the plane through them, as many again to judge it
 constexpr double kLeastHullArea = 1e-3;
+constexpr size_t kSmallestBall = 64;
+constexpr double kBallLoss = kComponentsLoss / 5;
 
 // The cost of judging grows with the square of the lights.
 size_t samplePixels(size_t lights)
@@ -48,6 +50,7 @@ ResidualRows sampleRows(const Surface& surface, const EachBlock& eachBlock, size
         const Eigen::Index before = all.observed.rows();
         all.observed.conservativeResize(before + rows.observed.rows(), rows.observed.cols());
         all.predicted.conservativeResizeLike(all.observed);
+        all.pixels.insert(all.pixels.end(), rows.pixels.begin(), rows.pixels.end());
         all.observed.bottomRows(rows.observed.rows()) = rows.observed;
         all.predicted.bottomRows(rows.predicted.rows()) = rows.predicted;
     });
@@ -63,6 +66,37 @@ float peakOf(const ResidualRows& rows, const std::vector<Light>& lights)
         }
     }
     return std::max(quantile(values, 0.99), 1e-12f);
+}
+
+// What the sample's rows would have been by balls.
+Eigen::MatrixXf predictedBy(const LightBalls& balls, const ResidualRows& rows)
+{
+    const Eigen::Index lights = rows.predicted.cols();
+    Eigen::MatrixXf predicted(rows.predicted.rows(), lights);
+    std::vector<float> values(static_cast<size_t>(3 * lights));
+    for (size_t p = 0; p < rows.pixels.size(); ++p) {
+        balls.predict(rows.pixels[p], values);
+        for (Eigen::Index c = 0; c < 3; ++c) {
+            predicted.row(static_cast<Eigen::Index>(3 * p) + c) =
+                Eigen::Map<const Eigen::RowVectorXf>(&values[static_cast<size_t>(c * lights)], lights);
+        }
+    }
+    return predicted;
+}
+
+// The smallest balls that are as good as the tables to the layer, if they have far fewer texels than there are pixels.
+LightBalls quickBalls(const Surface& surface, const ResidualRows& rows, const ResidualJudge& judge,
+                      const ResidualFit& fit, size_t pixels, int threads)
+{
+    const size_t materials = surface.materials.size();
+    for (size_t size = kSmallestBall; 2 * materials * size * size <= pixels; size *= 2) {
+        LightBalls balls(surface, static_cast<int>(size), threads);
+        const Eigen::MatrixXf off = rows.observed + fit.trust * (predictedBy(balls, rows) - rows.predicted);
+        if (lossByErrors(fit, judge.errors(off)) <= kBallLoss) {
+            return balls;
+        }
+    }
+    return {surface, 0, threads};
 }
 
 // Bytes of one component: its picture on the shaded pixels and its weights.
@@ -117,7 +151,8 @@ ResidualLayer estimateResidual(const Surface& surface, const ResidualOptions& op
     const Eigen::MatrixXf basis = chooseComponents(rows, judge, options.toleranceDecibels,
                                                    std::min<size_t>(afforded, kMostResidualComponents), report);
     report.bytes = each * static_cast<size_t>(report.components);
-    ResidualEncoder encoder(surface, nodes, report.fit, rows, basis);
+    const LightBalls balls = quickBalls(surface, rows, judge, report.fit, pixels, options.threads);
+    ResidualEncoder encoder(surface, balls, nodes, report.fit, rows, basis);
     eachBlock([&](const Observations& block) { encoder.encode(block, options.threads); });
     return std::move(encoder.layer);
 }

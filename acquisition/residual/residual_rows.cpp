@@ -20,6 +20,7 @@ ResidualRows residualRows(const Observations& block, std::span<const size_t> pla
     rows.observed.resize(static_cast<Eigen::Index>(3 * places.size()), static_cast<Eigen::Index>(lights));
     rows.predicted.resizeLike(rows.observed);
     for (size_t p = 0; p < places.size(); ++p) {
+        rows.pixels.push_back(block.pixels[places[p]]);
         for (size_t i = 0; i < lights; ++i) {
             const Light& light = surface.lights[i].light;
             const glm::vec3 predicted =

@@ -1,4 +1,5 @@
 #pragma once
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -11,6 +12,7 @@ namespace nacre {
 
 // Radiance over irradiance of some pixels: a row a pixel and channel, 3 * pixel + channel, a column a light.
 struct ResidualRows {
+    std::vector<uint32_t> pixels;
     Eigen::MatrixXf observed;  // of clipped values at least what is predicted: how much more there was is not known
     Eigen::MatrixXf predicted; // by the surface's BRDF
 };

@@ -4,11 +4,13 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
+#include "acquisition/residual/light_balls.h"
 #include "acquisition/residual/light_spline.h"
 #include "acquisition/residual/principal_components.h"
 #include "acquisition/residual/residual_choice.h"
 #include "acquisition/residual/residual_components.h"
 #include "acquisition/residual/residual_estimate.h"
+#include "engine/scene/reference.h"
 #include "engine/scene/residual_layer.h"
 #include "tests/support/expect_error.h"
 #include "tests/support/residual_surface.h"
@@ -177,6 +179,27 @@ TEST(ResidualComponents, LeaveOutNoMoreThanIsAllowed)
     EXPECT_EQ(few.cols(), 2);
     EXPECT_EQ(chooseComponents(rows, judge, 10, 20, report).cols(), 1);
     EXPECT_GT(report.capturedPsnr, 10);
+}
+
+TEST(LightBalls, SayWhatTheTablesSay)
+{
+    const Surface surface = residualSurface(16);
+    const LightBalls tables(surface, 0, 1), balls(surface, 64, 2);
+    const size_t lights = surface.lights.size();
+    std::vector<float> exact(3 * lights), quick(3 * lights);
+    for (size_t p = 0; p < surface.labels.size(); ++p) {
+        tables.predict(p, exact);
+        balls.predict(p, quick);
+        for (size_t i = 0; i < lights; ++i) {
+            const Light light{surface.lights[i].light.direction, glm::vec3(1)};
+            const glm::vec3 radiance = brdfRadiance(surface, p, light, {0, 0, 1});
+            for (size_t c = 0; c < 3; ++c) {
+                EXPECT_EQ(exact[c * lights + i], radiance[static_cast<int>(c)]);
+                // A cosine between texels 1/32 of the disc apart: at most its second derivative times 1/32^2 / 8.
+                EXPECT_NEAR(quick[c * lights + i], exact[c * lights + i], 2e-4);
+            }
+        }
+    }
 }
 
 // A block that shows residualSurface's BRDF and its layer under the captured lights.
