@@ -68,6 +68,20 @@ std::vector<Light> lightsAsFound(const Surface& surface, const Capture& capture,
     return lights;
 }
 
+// Where nobody gave irradiances, those of two sets of photographs differ by a factor that means nothing.
+glm::vec3 scaleBetween(const std::vector<Light>& from, const std::vector<Light>& to)
+{
+    glm::vec3 scale(1);
+    for (int c = 0; c < 3; ++c) {
+        std::vector<float> ratios;
+        for (size_t i = 0; i < from.size(); ++i) {
+            ratios.push_back(to[i].irradiance[c] / from[i].irradiance[c]);
+        }
+        scale[c] = quantile(ratios, 0.5);
+    }
+    return scale;
+}
+
 // What stands for the given photographs is the same for every method: what the acquisition made of those alone.
 Truth readTruth(const Capture& capture, const Rig& calibrated, const std::vector<size_t>& heldOut,
                 const std::vector<size_t>& given, const Surface& surface, const AcquireOptions& options)
@@ -76,9 +90,15 @@ Truth readTruth(const Capture& capture, const Rig& calibrated, const std::vector
     Observations all;
     reader.next(all);
     const Rig rig = reconciledRig(capture, calibrated, all, options);
-    return {selectLights(all, heldOut),        selectLights(all, given),
-            selectLights(rig, heldOut).lights, lightsAsFound(surface, capture, given, selectLights(rig, given).lights),
-            percentile99(all, false),          percentile99(all, true)};
+    const std::vector<Light> reconciled = selectLights(rig, given).lights,
+                             found = lightsAsFound(surface, capture, given, reconciled);
+    std::vector<Light> asked = selectLights(rig, heldOut).lights;
+    const glm::vec3 scale = scaleBetween(reconciled, found);
+    for (Light& light : asked) {
+        light.irradiance *= scale;
+    }
+    return {selectLights(all, heldOut), selectLights(all, given), asked, found,
+            percentile99(all, false),   percentile99(all, true)};
 }
 
 double ownPeakOf(const Observations& seen, size_t photograph)
