@@ -3,6 +3,7 @@
 #include <map>
 
 #include "engine/gpu/ball_cache.h"
+#include "engine/gpu/fours_target.h"
 #include "engine/gpu/residual_pass.h"
 
 namespace nacre {
@@ -16,26 +17,24 @@ public:
         const BallCache& balls; // modulated ones where the pixels have albedo factors or there is a layer
         int materials;
         int toneCurve;
-        const ResidualPass* residual; // null: nothing is added. Its weights know the exposure.
+        const ResidualPass& residual; // its weights know the exposure
+        int residualFours;            // of components that are added, in fours
     };
 
     // Drops what was made for another surface.
-    void reset();
+    void reset() { target_.reset(); }
     // `codes` has kCodeFormat and the size of `pixels`; it is in kDrawnTo.
     void record(VkCommandBuffer commands, const PixelTextures& pixels, const Inputs& inputs, const Texture& codes);
 
-    VkDeviceSize bytes() const { return fours_.bytes() + copied_.bytes(); }
+    VkDeviceSize bytes() const { return target_.bytes(); }
 
 private:
     const Pipeline& pipeline(const PixelTextures& pixels, const Inputs& inputs);
-    void recordDraw(VkCommandBuffer commands, const PixelTextures& pixels, const Inputs& inputs, const Texture& target);
-    void copyFours(VkCommandBuffer commands, const Texture& codes);
 
     const Context& context_;
     Sampler nearest_;
     std::map<std::array<int, 3>, Pipeline> pipelines_; // by modulated, tone curve and fours of components
-    Texture fours_;                                    // kPixelsPerTexel pixels a texel, where a layer is added
-    Buffer copied_;                                    // its texels, on the way to the picture
+    FoursTarget target_;
 };
 
 } // namespace nacre

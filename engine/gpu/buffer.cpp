@@ -75,4 +75,9 @@ void makeVisibleToDevice(VkCommandBuffer commands, const Buffer& buffer)
                      VK_ACCESS_2_TRANSFER_READ_BIT | VK_ACCESS_2_SHADER_SAMPLED_READ_BIT);
 }
 
+void makeWritable(VkCommandBuffer commands, const Buffer& buffer)
+{
+    barrierAfterCopy(commands, buffer, VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT);
+}
+
 } // namespace nacre

@@ -29,5 +29,7 @@ private:
 void makeVisibleToHost(VkCommandBuffer commands, const Buffer& buffer);
 // After copies into it, so that copies from it and shaders read what they wrote.
 void makeVisibleToDevice(VkCommandBuffer commands, const Buffer& buffer);
+// After copies from it, so that copies into it do not overtake them.
+void makeWritable(VkCommandBuffer commands, const Buffer& buffer);
 
 } // namespace nacre

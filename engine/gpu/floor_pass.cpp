@@ -14,16 +14,18 @@ Pipeline floorPipeline(const Context& context, bool plain)
                                              ShaderBinding{kBindingAlbedo, kTextureInput}};
     static_assert(kConstantModulated == 0);
     const std::array constants = {int{!plain}};
-    return Pipeline(
-        context,
-        {.fragmentShader = floor_frag, .constants = constants, .bindings = kBindings, .targetFormat = kCodeFormat});
+    return Pipeline(context, {.fragmentShader = floor_frag,
+                              .constants = constants,
+                              .bindings = kBindings,
+                              .pushConstantBytes = sizeof(FloorConstants),
+                              .targetFormat = kIntegersFormat});
 }
 
 } // namespace
 
 FloorPass::FloorPass(const Context& context, const Surface& surface)
     : context_(context), plain_(isPlain(surface)), pixels_(uploadPixels(context, surface, plain_, Precision::compact)),
-      target_(makeTarget(context, pixels_.normals.extent(), kCodeFormat)),
+      codes_(makeTarget(context, pixels_.normals.extent(), kCodeFormat)), target_(context),
       nearest_(makeSampler(context, VK_FILTER_NEAREST)), pipeline_(floorPipeline(context, plain_))
 {
 }
@@ -31,13 +33,15 @@ FloorPass::FloorPass(const Context& context, const Surface& surface)
 void FloorPass::draw()
 {
     const std::array inputs = {textureInput(kBindingNormals, nearest_, pixels_.normals),
-                               textureInput(kBindingAlbedo, nearest_, plain_ ? pixels_.normals : pixels_.albedo)};
+                               textureInput(kBindingAlbedo, nearest_, albedoOrAny(pixels_))};
     context_.run([&](VkCommandBuffer commands) {
-        imageBarrier(commands, target_.image(), kDiscarded, kDrawnTo);
-        beginRendering(commands, target_, Load::clear);
-        nacre::draw(context_, commands, pipeline_, inputs, {});
-        vkCmdEndRendering(commands);
-        imageBarrier(commands, target_.image(), kDrawnTo, kCopiedFrom);
+        imageBarrier(commands, codes_.image(), kDiscarded, kDrawnTo);
+        target_.record(commands, codes_, [&](int firstRow) {
+            nacre::draw(
+                context_, commands, pipeline_, inputs,
+                bytesOf(FloorConstants{.firstRow = firstRow, .width = static_cast<int>(codes_.extent().width)}));
+        });
+        imageBarrier(commands, codes_.image(), kDrawnTo, kCopiedFrom);
     });
 }
 

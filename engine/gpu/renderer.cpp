@@ -262,7 +262,8 @@ void Renderer::drawBallPicture()
     const BallFrame::Inputs lit{.balls = balls_,
                                 .materials = static_cast<int>(tables_.size()),
                                 .toneCurve = display_.toneCurve,
-                                .residual = hasResidual() ? &residualPass_ : nullptr};
+                                .residual = residualPass_,
+                                .residualFours = hasResidual() ? from.residualFours : 0};
     drawInto([&](VkCommandBuffer commands) { ballFrame_.record(commands, from, lit, picture_->texture); });
 }
 

@@ -6,7 +6,8 @@ namespace nacre {
 
 ResidualPass::ResidualPass(const Context& context)
     : context_(context), nearest_(makeSampler(context, VK_FILTER_NEAREST)),
-      weights_(context, kFloatFormat, sizeof(ResidualWeights), Memory::shared)
+      weights_(context, kFloatFormat, sizeof(ResidualWeights), Memory::shared),
+      none_(context, kIntegersFormat, kComponentsPerTexel, Memory::device)
 {
 }
 
@@ -22,7 +23,8 @@ void ResidualPass::upload(const ResidualWeights& weights, float gain)
 
 std::array<ShaderInput, 2> ResidualPass::inputs(const PixelTextures& pixels) const
 {
-    return {texelInput(kBindingResidual, pixels.residual), texelInput(kBindingResidualWeights, weights_)};
+    return {texelInput(kBindingResidual, pixels.residualFours > 0 ? pixels.residual : none_),
+            texelInput(kBindingResidualWeights, weights_)};
 }
 
 const Pipeline& ResidualPass::pipeline(const PixelTextures& pixels)

@@ -18,12 +18,12 @@ public:
     // Adds to the target, which has kFloatFormat and is being rendered to; its row 0 is the surface's firstRow.
     void record(VkCommandBuffer commands, const PixelTextures& pixels, int materials, int firstRow);
 
-    // What shaders that include residual_input.glsl read, of pixels that have a layer.
+    // What shaders that include residual_input.glsl read; a stand-in for the layer where the pixels have none.
     static constexpr std::array kBindings = {ShaderBinding{kBindingResidual, kTexelInput},
                                              ShaderBinding{kBindingResidualWeights, kTexelInput}};
     std::array<ShaderInput, 2> inputs(const PixelTextures& pixels) const;
 
-    VkDeviceSize bytes() const { return weights_.bytes(); }
+    VkDeviceSize bytes() const { return weights_.bytes() + none_.bytes(); }
 
 private:
     const Pipeline& pipeline(const PixelTextures& pixels);
@@ -32,6 +32,7 @@ private:
     std::map<std::array<int, 3>, Pipeline> pipelines_; // by packed, fours of components and modulated
     Sampler nearest_;
     TexelBuffer weights_;
+    TexelBuffer none_; // one texel, in place of components
 };
 
 } // namespace nacre

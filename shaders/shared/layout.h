@@ -32,7 +32,7 @@ const int kConstantCoverage = 4;          // direct.frag: counts what asks for u
 const int kConstantShadows = 5;           // direct.frag: the height casts shadows
 const int kConstantModulated = 0;         // ball*.frag, floor.frag, false_colour.frag: factors and labels
 const int kConstantToneCurve = 1;         // ball*.frag, display.frag
-const int kConstantBallResidual = 2;      // ball_residual.frag: components, in fours
+const int kConstantBallResidual = 2;      // ball.frag: components, in fours; 0: no layer
 const int kConstantPackedNormals = 0;     // residual.frag
 const int kConstantResidualFours = 1;     // residual.frag: components, in fours
 const int kConstantResidualModulated = 2; // residual.frag: pixels have labels
@@ -47,15 +47,21 @@ struct DirectConstants {
     vec4 horizon[kLightsPerGroup]; // horizonLookup of each light, where there are shadows
 };
 
-// Codes of ball_residual.frag's pixels, four to a texel of its target.
+// Of shaders that draw several pixels at once: codes, side by side in a texel of the target.
 const int kPixelsPerTexel = 4;
 
-// Of ball.frag and ball_residual.frag: balls of one size lie side by side in one texture, material 0 at the top left.
+// Of ball.frag: balls of one size lie side by side in one texture, material 0 at the top left.
 struct BallConstants {
     int size;      // texels across one ball
     float columns; // balls side by side
     int materials; // balls in all
+    int firstRow;  // of the picture, in the target's row 0
     int width;     // pixels, of the picture
+};
+
+struct FloorConstants {
+    int firstRow; // of the picture, in the target's row 0
+    int width;    // pixels, of the picture
 };
 
 // Of ball_display.frag: one ball is stretched and encoded into its place.

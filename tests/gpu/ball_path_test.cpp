@@ -100,6 +100,25 @@ TEST_F(BallPathTest, IsItsTwinOnTheCpu)
     }
 }
 
+// Four pixels are drawn at a time, in bands of rows: rows that end within four, rows shorter than that, a last band
+// lower than the others. alpha 0.3 has no texels so unlike their neighbours as to show which of them was nearest.
+TEST_F(BallPathTest, PicturesOfAnySizeAreTheirTwins)
+{
+    static_assert(2 * FoursTarget::kBandPixels < 1023 * 701);
+    for (const glm::ivec2 size : {glm::ivec2(1, 1), {2, 70}, {3, 50}, {5, 41}, {98, 63}, {1023, 701}}) {
+        for (const bool modulated : {false, true}) {
+            SCOPED_TRACE(testing::Message() << size.x << "x" << size.y << (modulated ? ", modulated" : ""));
+            Scene scene = ggxScene(0.3f, size.x, size.y);
+            if (modulated) {
+                scene.surface.albedo = Image(size.x, size.y, 3, 0.7f);
+            }
+            Renderer renderer = rendererOf(scene, RenderPath::ball);
+            const Image twin = referenceBallPicture(scene, renderer.ballSizes(), Display{});
+            EXPECT_LE(difference(renderer.picture(), twin).anyShare, 0.005);
+        }
+    }
+}
+
 // Pictures of the direct path read 16-bit normals and albedo factors: within a code of the exact ones, but at the
 // terminator, where sRGB's curve is 13 times as steep.
 TEST_F(BallPathTest, DirectPicturesAreTheReferences)

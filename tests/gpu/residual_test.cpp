@@ -63,10 +63,11 @@ TEST_F(ResidualTest, RadianceIsThatOfItsTwin)
 
 TEST_F(ResidualTest, BallPictureIsThatOfItsTwin)
 {
-    // Four pixels are drawn at once: rows that end within them and beyond, a row shorter than that. Components that
-    // fill texels, and that leave a rest.
+    // Four pixels are drawn at once: rows that end within them and beyond, a row shorter than that; more rows than are
+    // drawn at once. Components that fill texels, and that leave a rest.
+    static_assert(FoursTarget::kBandPixels < 1023 * 301);
     for (const Scene& scene : {plainScene(), plainScene(3, 90, 16), modulatedScene(97, 63, 19),
-                               modulatedScene(98, 41, 40), modulatedScene(95, 41, 64)}) {
+                               modulatedScene(98, 41, 40), modulatedScene(95, 41, 64), plainScene(1023, 301, 5)}) {
         SCOPED_TRACE(testing::Message() << scene.surface.normals.width << ", " << scene.surface.residual.components);
         Renderer renderer = rendererOf(scene, RenderPath::ball);
         const Display display{.exposureStops = 1};
