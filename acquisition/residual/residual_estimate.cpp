@@ -16,6 +16,7 @@ namespace {
 
 constexpr size_t kFewestLights = 6; // three for the plane through them, as many again to judge it
 constexpr double kLeastHullArea = 1e-3;
+constexpr size_t kMostUnasked = 40; // components: more cost a frame more than the last of them give (docs/speed.md)
 constexpr size_t kSmallestBall = 64;
 constexpr double kBallLoss = kComponentsLoss / 5;
 
@@ -140,7 +141,8 @@ ResidualLayer estimateResidual(const Surface& surface, const ResidualOptions& op
     const ResidualJudge judge(rows, lights, peakOf(rows, lights));
     report.fit = chooseResidualFit(rows, lights, judge, options.choice);
     const size_t each = bytesPerComponent(pixels, lights.size());
-    const size_t afforded = options.budgetBytes > 0 ? options.budgetBytes / each : kMostResidualComponents;
+    const size_t most = options.toleranceDecibels > 0 ? kMostResidualComponents : kMostUnasked;
+    const size_t afforded = options.budgetBytes > 0 ? options.budgetBytes / each : most;
     if (report.fit.isKept && afforded == 0) {
         report.fit.isKept = false;
         report.whyNot = fmt::format("a component takes {} bytes, {} may be used", each, options.budgetBytes);
