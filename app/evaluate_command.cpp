@@ -24,6 +24,7 @@ constexpr const char* kWorst = "worst.png";
 struct EvaluateArguments {
     CaptureArguments common;
     InterpolationArguments interpolation;
+    LadderArguments ladder;
     ResidualArguments residual;
     std::filesystem::path truth;
     std::filesystem::path output;
@@ -79,6 +80,7 @@ void runEvaluate(EvaluateArguments& arguments)
     CaptureArguments& common = arguments.common;
     AcquireOptions options = common.stageOptions();
     options.interpolation = arguments.interpolation.options(options.interpolation.threads);
+    options.ladder = arguments.ladder.options(options.interpolation.threads);
     options.residual = arguments.residual.options(options.ladder);
     const bool each = arguments.holdOut == kEach;
     options.lights.heldOutEvery = each ? 0 : holdOutEvery(arguments.holdOut);
@@ -112,6 +114,7 @@ void addEvaluateCommand(CLI::App& app)
     CLI::App* command = app.add_subcommand("evaluate", "The whole chain, judged by photographs that are held out");
     arguments->common.addTo(*command);
     arguments->interpolation.addTo(*command);
+    arguments->ladder.addTo(*command);
     arguments->residual.addTo(*command);
     command
         ->add_option(

@@ -19,6 +19,7 @@ constexpr double kLeastHullArea = 1e-3;
 constexpr size_t kMostUnasked = 40; // components: more cost a frame more than the last of them give (docs/speed.md)
 constexpr size_t kSmallestBall = 64;
 constexpr double kBallLoss = kComponentsLoss / 5;
+constexpr size_t kMostBallBytes = size_t{64} << 20;
 
 // The cost of judging grows with the square of the lights.
 size_t samplePixels(size_t lights)
@@ -85,12 +86,18 @@ Eigen::MatrixXf predictedBy(const LightBalls& balls, const ResidualRows& rows)
     return predicted;
 }
 
-// The smallest balls that are as good as the tables to the layer, if they have far fewer texels than there are pixels.
+// Far fewer texels than there are pixels, in bounded memory.
+bool areQuick(const Surface& surface, size_t size, size_t pixels)
+{
+    const size_t texels = surface.materials.size() * size * size;
+    return 2 * texels <= pixels && texels * 3 * surface.lights.size() * sizeof(float) <= kMostBallBytes;
+}
+
+// The smallest balls that are as good as the tables to the layer, where there are such.
 LightBalls quickBalls(const Surface& surface, const ResidualRows& rows, const ResidualJudge& judge,
                       const ResidualFit& fit, size_t pixels, int threads)
 {
-    const size_t materials = surface.materials.size();
-    for (size_t size = kSmallestBall; 2 * materials * size * size <= pixels; size *= 2) {
+    for (size_t size = kSmallestBall; areQuick(surface, size, pixels); size *= 2) {
         LightBalls balls(surface, static_cast<int>(size), threads);
         const Eigen::MatrixXf off = rows.observed + fit.trust * (predictedBy(balls, rows) - rows.predicted);
         if (lossByErrors(fit, judge.errors(off)) <= kBallLoss) {
