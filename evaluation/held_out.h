@@ -31,9 +31,10 @@ struct HeldOutEvaluation {
 };
 
 // Acquires from the photographs that options.lights gives (its heldOutEvery must be positive) and predicts those held
-// out, with the irradiances that the whole capture gives them: calibrated, and reconciled with each other where
-// options.correctIntensities says so. Baselines see the same photographs; each is judged at
-// the smoothing that turns out best for it, which nobody would know beforehand. Radiance is divided by the 99th
+// out, with the irradiances that the whole capture gives them: calibrated, reconciled with each other where
+// options.correctIntensities says so, on the scale of those that the acquisition found. Baselines see the same
+// photographs with the irradiances found; each is judged at the smoothing that turns out best for it, which nobody
+// would know beforehand. Radiance is divided by the 99th
 // percentile of all the mask's values and clipped to [0, 1]. Reads the whole capture at once.
 // With several rounds, the photographs held out move on by one each round, errors are pooled over all rounds and the
 // last one's acquisition is answered: as many as options.lights.heldOutEvery leave each photograph out once.

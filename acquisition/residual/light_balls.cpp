@@ -4,45 +4,29 @@
 
 #include <glm/common.hpp>
 
-#include "engine/scene/parallel_for.h"
+#include "engine/scene/ball.h"
 #include "engine/scene/reference.h"
 #include "shared/ball.h"
-#include "shared/shading.h"
 
 namespace nacre {
 namespace {
 
 const glm::vec3 kCamera(0, 0, 1);
 
-// Under all lights of irradiance 1: [channel * lights + light].
-void setTexel(const Surface& surface, const BrdfTable& table, const glm::vec3& normal, float* texel)
-{
-    const size_t lights = surface.lights.size();
-    for (size_t i = 0; i < lights; ++i) {
-        const glm::vec3& l = surface.lights[i].light.direction;
-        const float nDotL = glm::dot(normal, l);
-        const glm::vec3 radiance =
-            nDotL > 0 ? radianceFromBrdf(evaluateTable(table, normal, l, kCamera).value, glm::vec3(1), nDotL)
-                      : glm::vec3(0);
-        for (size_t c = 0; c < 3; ++c) {
-            texel[c * lights + i] = radiance[static_cast<int>(c)];
-        }
-    }
-}
-
+// Side by side, so that one texel answers for all lights.
 std::vector<float> ballsOf(const Surface& surface, const BrdfTable& table, int size, int threads)
 {
-    const size_t values = 3 * surface.lights.size(), side = static_cast<size_t>(size);
-    std::vector<float> balls(values * side * side);
-    parallelFor(side, 2, threads, [&](size_t first, size_t last) {
-        for (size_t y = first; y < last; ++y) {
-            for (size_t x = 0; x < side; ++x) {
-                const glm::vec2 texel = (glm::vec2(x, y) + 0.5f) / static_cast<float>(size);
-                setTexel(surface, table, normalFromBallTexel(texel, static_cast<float>(size)),
-                         &balls[(y * side + x) * values]);
+    const size_t lights = surface.lights.size(), texels = static_cast<size_t>(size) * size;
+    std::vector<float> balls(3 * lights * texels);
+    for (size_t i = 0; i < lights; ++i) {
+        const Light unit{surface.lights[i].light.direction, glm::vec3(1)};
+        const Ball ball = makeBall(table, std::span(&unit, 1), size, threads);
+        for (size_t texel = 0; texel < texels; ++texel) {
+            for (size_t c = 0; c < 3; ++c) {
+                balls[(3 * texel + c) * lights + i] = ball.radiance.values[3 * texel + c];
             }
         }
-    });
+    }
     return balls;
 }
 

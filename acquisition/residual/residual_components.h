@@ -1,6 +1,5 @@
 #pragma once
 #include "acquisition/residual/residual_choice.h"
-#include "acquisition/residual/residual_report.h"
 
 namespace nacre {
 

@@ -56,32 +56,9 @@ ResidualEncoder::ResidualEncoder(const Surface& surface, const LightBalls& balls
     setRanges(residualsOf(sample, fit.trust) * basis_, layer);
 }
 
-// [channel * lights + light]
-void ResidualEncoder::setResidual(const Observations& block, size_t place, std::span<const float> predicted,
-                                  float* residual) const
-{
-    const size_t lights = block.lightCount;
-    const auto radiance = block.radianceOf(place);
-    const auto saturated = block.saturatedOf(place);
-    for (size_t i = 0; i < lights; ++i) {
-        const glm::vec3 observed = radiance[i] / surface_.lights[i].light.irradiance;
-        for (size_t c = 0; c < 3; ++c) {
-            const float value = observed[static_cast<int>(c)], guess = predicted[c * lights + i];
-            residual[c * lights + i] = (saturated[i] != 0 ? std::max(value, guess) : value) - layer.trust * guess;
-        }
-    }
-}
-
 void ResidualEncoder::encodePixels(const Observations& block, std::span<const size_t> places)
 {
-    using RowMajor = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-    RowMajor residuals(static_cast<Eigen::Index>(places.size()), basis_.rows());
-    std::vector<float> predicted(static_cast<size_t>(basis_.rows()));
-    for (size_t p = 0; p < places.size(); ++p) {
-        balls_.predict(block.pixels[places[p]], predicted);
-        setResidual(block, places[p], predicted, residuals.row(static_cast<Eigen::Index>(p)).data());
-    }
-    const RowMajor amounts = residuals * basis_;
+    const Eigen::MatrixXf amounts = residualsOf(residualRows(block, places, surface_, balls_), layer.trust) * basis_;
     for (size_t p = 0; p < places.size(); ++p) {
         for (int k = 0; k < layer.components; ++k) {
             const float share =

@@ -18,7 +18,6 @@ public:
     ResidualLayer layer;
 
 private:
-    void setResidual(const Observations& block, size_t place, std::span<const float> predicted, float* residual) const;
     void encodePixels(const Observations& block, std::span<const size_t> places);
 
     const Surface& surface_;

@@ -39,6 +39,7 @@ std::string whyNoLayer(const std::vector<Light>& lights, const std::vector<glm::
 ResidualRows sampleRows(const Surface& surface, const EachBlock& eachBlock, size_t shaded, size_t most)
 {
     const size_t stride = std::max<size_t>(1, (shaded + most - 1) / most);
+    const LightBalls tables(surface, 0, 1);
     size_t seen = 0;
     ResidualRows all;
     eachBlock([&](const Observations& block) {
@@ -48,7 +49,7 @@ ResidualRows sampleRows(const Surface& surface, const EachBlock& eachBlock, size
                 places.push_back(place);
             }
         }
-        const ResidualRows rows = residualRows(block, places, surface);
+        const ResidualRows rows = residualRows(block, places, surface, tables);
         const Eigen::Index before = all.observed.rows();
         all.observed.conservativeResize(before + rows.observed.rows(), rows.observed.cols());
         all.predicted.conservativeResizeLike(all.observed);
@@ -70,22 +71,6 @@ float peakOf(const ResidualRows& rows, const std::vector<Light>& lights)
     return std::max(quantile(values, 0.99), 1e-12f);
 }
 
-// What the sample's rows would have been by balls.
-Eigen::MatrixXf predictedBy(const LightBalls& balls, const ResidualRows& rows)
-{
-    const Eigen::Index lights = rows.predicted.cols();
-    Eigen::MatrixXf predicted(rows.predicted.rows(), lights);
-    std::vector<float> values(static_cast<size_t>(3 * lights));
-    for (size_t p = 0; p < rows.pixels.size(); ++p) {
-        balls.predict(rows.pixels[p], values);
-        for (Eigen::Index c = 0; c < 3; ++c) {
-            predicted.row(static_cast<Eigen::Index>(3 * p) + c) =
-                Eigen::Map<const Eigen::RowVectorXf>(&values[static_cast<size_t>(c * lights)], lights);
-        }
-    }
-    return predicted;
-}
-
 // Far fewer texels than there are pixels, in bounded memory.
 bool areQuick(const Surface& surface, size_t size, size_t pixels)
 {
@@ -99,7 +84,8 @@ LightBalls quickBalls(const Surface& surface, const ResidualRows& rows, const Re
 {
     for (size_t size = kSmallestBall; areQuick(surface, size, pixels); size *= 2) {
         LightBalls balls(surface, static_cast<int>(size), threads);
-        const Eigen::MatrixXf off = rows.observed + fit.trust * (predictedBy(balls, rows) - rows.predicted);
+        const Eigen::MatrixXf off =
+            rows.observed + fit.trust * (predictedRows(balls, rows.pixels, surface.lights.size()) - rows.predicted);
         if (lossByErrors(fit, judge.errors(off)) <= kBallLoss) {
             return balls;
         }

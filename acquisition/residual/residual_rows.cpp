@@ -2,39 +2,43 @@
 
 #include <algorithm>
 
-#include <glm/common.hpp>
-
-#include "engine/scene/reference.h"
-
 namespace nacre {
-namespace {
 
-const glm::vec3 kCamera(0, 0, 1);
-
-} // namespace
-
-ResidualRows residualRows(const Observations& block, std::span<const size_t> places, const Surface& surface)
+ResidualRows residualRows(const Observations& block, std::span<const size_t> places, const Surface& surface,
+                          const LightBalls& balls)
 {
-    const size_t lights = block.lightCount;
     ResidualRows rows;
-    rows.observed.resize(static_cast<Eigen::Index>(3 * places.size()), static_cast<Eigen::Index>(lights));
-    rows.predicted.resizeLike(rows.observed);
+    for (const size_t place : places) {
+        rows.pixels.push_back(block.pixels[place]);
+    }
+    rows.predicted = predictedRows(balls, rows.pixels, block.lightCount);
+    rows.observed.resizeLike(rows.predicted);
     for (size_t p = 0; p < places.size(); ++p) {
-        rows.pixels.push_back(block.pixels[places[p]]);
-        for (size_t i = 0; i < lights; ++i) {
-            const Light& light = surface.lights[i].light;
-            const glm::vec3 predicted =
-                brdfRadiance(surface, block.pixels[places[p]], {light.direction, glm::vec3(1)}, kCamera);
-            glm::vec3 observed = block.radianceOf(places[p])[i] / light.irradiance;
-            observed = block.saturatedOf(places[p])[i] != 0 ? glm::max(observed, predicted) : observed;
+        for (size_t i = 0; i < block.lightCount; ++i) {
+            const glm::vec3 observed = block.radianceOf(places[p])[i] / surface.lights[i].light.irradiance;
+            const bool clipped = block.saturatedOf(places[p])[i] != 0;
             for (int c = 0; c < 3; ++c) {
                 const auto row = static_cast<Eigen::Index>(3 * p + c), column = static_cast<Eigen::Index>(i);
-                rows.observed(row, column) = observed[c];
-                rows.predicted(row, column) = predicted[c];
+                rows.observed(row, column) = clipped ? std::max(observed[c], rows.predicted(row, column)) : observed[c];
             }
         }
     }
     return rows;
+}
+
+Eigen::MatrixXf predictedRows(const LightBalls& balls, std::span<const uint32_t> pixels, size_t lights)
+{
+    const auto columns = static_cast<Eigen::Index>(lights);
+    Eigen::MatrixXf predicted(static_cast<Eigen::Index>(3 * pixels.size()), columns);
+    std::vector<float> values(3 * lights);
+    for (size_t p = 0; p < pixels.size(); ++p) {
+        balls.predict(pixels[p], values);
+        for (size_t c = 0; c < 3; ++c) {
+            predicted.row(static_cast<Eigen::Index>(3 * p + c)) =
+                Eigen::Map<const Eigen::RowVectorXf>(&values[c * lights], columns);
+        }
+    }
+    return predicted;
 }
 
 Eigen::MatrixXf residualsOf(const ResidualRows& rows, float trust)

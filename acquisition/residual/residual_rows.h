@@ -6,6 +6,7 @@
 #include <Eigen/Core>
 
 #include "acquisition/capture/observations.h"
+#include "acquisition/residual/light_balls.h"
 #include "engine/scene/surface.h"
 
 namespace nacre {
@@ -17,8 +18,12 @@ struct ResidualRows {
     Eigen::MatrixXf predicted; // by the surface's BRDF
 };
 
-// Of the block's pixels at `places`, all of which have a normal and a material.
-ResidualRows residualRows(const Observations& block, std::span<const size_t> places, const Surface& surface);
+// Of the block's pixels at `places`, all of which have a normal and a material. `balls` are the surface's.
+ResidualRows residualRows(const Observations& block, std::span<const size_t> places, const Surface& surface,
+                          const LightBalls& balls);
+
+// Rows of what the surface's BRDF says of some pixels.
+Eigen::MatrixXf predictedRows(const LightBalls& balls, std::span<const uint32_t> pixels, size_t lights);
 
 // [pixel, channel * lights + light]: what is left of each pixel where the BRDF is trusted so far.
 Eigen::MatrixXf residualsOf(const ResidualRows& rows, float trust);

@@ -2,6 +2,7 @@
 #include <filesystem>
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include "engine/scene/image.h"
 #include "engine/scene/whole_file.h"
@@ -160,6 +161,17 @@ TEST(EvaluateCommand, TellsPhotographsNormalsBytesAndShowsTheWorst)
     EXPECT_GT(sheet.width, 3 * 240) << "three cells side by side";
     EXPECT_EQ(runNacre(arguments).exitCode, 3) << "worst.png exists";
     EXPECT_EQ(runNacre({"evaluate", capture, "--hold-out", "each:7"}).exitCode, 2);
+}
+
+TEST(EvaluateCommand, KeepsTheModelWithinTheBudget)
+{
+    const TempFolder folder;
+    const std::string summary = (folder / "e.json").string();
+    const ProgramRun run = runNacre({"evaluate", makeSmallCapture(folder), "--normals", "consensus", "--residual",
+                                     "difference", "--budget-bytes", "2KiB", "--json", summary});
+    ASSERT_EQ(run.exitCode, 0) << run.err;
+    EXPECT_LE(nlohmann::json::parse(readTextFile(summary))["modelBytes"], 2048);
+    EXPECT_NE(run.out.find("layer        "), std::string::npos) << run.out;
 }
 
 } // namespace
