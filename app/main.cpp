@@ -6,8 +6,8 @@
 
 #include <fmt/format.h>
 
-#include "app/commands.h"
-#include "engine/scene/error.h"
+#include "app/commands/commands.h"
+#include "engine/files/error.h"
 
 namespace {
 

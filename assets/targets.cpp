@@ -5,14 +5,14 @@
 
 #include <fmt/format.h>
 
-#include "assets/draped_cloth.h"
-#include "assets/embossed_letters.h"
-#include "assets/knit.h"
-#include "assets/statue_head.h"
+#include "assets/cloth/draped_cloth.h"
+#include "assets/cloth/knit.h"
+#include "assets/cloth/weave_pattern.h"
+#include "assets/cloth/woven_cloth.h"
+#include "assets/head/statue_head.h"
+#include "assets/letters/embossed_letters.h"
 #include "assets/target_specification.h"
-#include "assets/weave_pattern.h"
-#include "assets/woven_cloth.h"
-#include "engine/scene/error.h"
+#include "engine/files/error.h"
 
 namespace nacre {
 namespace {

@@ -2,7 +2,7 @@
 #include <string>
 #include <vector>
 
-#include "assets/target.h"
+#include "assets/synth/target.h"
 
 namespace nacre {
 

@@ -3,9 +3,9 @@
 
 #include "acquisition/capture/observations.h"
 #include "acquisition/normals/normals.h"
-#include "engine/scene/brdf_table.h"
-#include "engine/scene/image.h"
-#include "engine/scene/normal_map.h"
+#include "engine/brdf/brdf_table.h"
+#include "engine/files/image.h"
+#include "engine/surface/normal_map.h"
 
 namespace nacre {
 

@@ -6,8 +6,8 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include "engine/scene/error.h"
-#include "engine/scene/parallel_for.h"
+#include "engine/files/error.h"
+#include "engine/files/parallel_for.h"
 
 namespace nacre {
 

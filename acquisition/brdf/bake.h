@@ -2,8 +2,8 @@
 #include <string>
 
 #include "acquisition/brdf/interpolation.h"
-#include "engine/scene/brdf_table.h"
-#include "engine/scene/light.h"
+#include "engine/brdf/brdf_table.h"
+#include "engine/lights/light.h"
 
 namespace nacre {
 

@@ -5,7 +5,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include "engine/scene/error.h"
+#include "engine/files/error.h"
 #include "shared/shading.h"
 
 namespace nacre {

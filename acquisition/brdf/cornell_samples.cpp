@@ -8,9 +8,9 @@
 #include <fmt/format.h>
 #include <glm/common.hpp>
 
-#include "engine/scene/cie_colour.h"
-#include "engine/scene/error.h"
-#include "engine/scene/whole_file.h"
+#include "engine/files/error.h"
+#include "engine/files/whole_file.h"
+#include "engine/materials/cie_colour.h"
 
 namespace nacre {
 namespace {

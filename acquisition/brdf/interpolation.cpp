@@ -5,7 +5,7 @@
 #include "acquisition/brdf/kernel_regression.h"
 #include "acquisition/brdf/local_linear.h"
 #include "acquisition/brdf/sample_cells.h"
-#include "engine/scene/error.h"
+#include "engine/files/error.h"
 
 namespace nacre {
 

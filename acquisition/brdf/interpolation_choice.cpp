@@ -6,8 +6,8 @@
 #include <glm/geometric.hpp>
 
 #include "acquisition/brdf/sample_cells.h"
-#include "engine/scene/measures.h"
-#include "engine/scene/parallel_for.h"
+#include "engine/files/measures.h"
+#include "engine/files/parallel_for.h"
 
 namespace nacre {
 

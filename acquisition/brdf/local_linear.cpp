@@ -12,7 +12,7 @@ namespace nacre {
 
 namespace {
 
-constexpr size_t kLeafSize = 16;
+constexpr size_t kPlaneLeafSize = 16;
 // Of the slopes, in units of the neighbours' own spread: only what they do not determine is held at 0.
 constexpr float kRidge = 1e-3f;
 
@@ -20,7 +20,7 @@ constexpr float kRidge = 1e-3f;
 using Moments = Eigen::Matrix<float, 5, 5>;
 using Plane = Eigen::Matrix<float, 5, 3>;
 
-struct Points {
+struct EmbeddedPoints {
     std::vector<glm::vec4> points;
 
     size_t kdtree_get_point_count() const { return points.size(); }
@@ -28,7 +28,8 @@ struct Points {
     template <class Box> bool kdtree_get_bbox(Box&) const { return false; }
 };
 
-using Tree = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<float, Points>, Points, 4>;
+using EmbeddedTree =
+    nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<float, EmbeddedPoints>, EmbeddedPoints, 4>;
 
 glm::vec3 cubeRoot(const glm::vec3& v)
 {
@@ -44,8 +45,8 @@ struct LocalLinearRegression::Index {
     std::vector<glm::vec3> unit;
     std::vector<glm::vec3> roots;
     std::vector<float> weights;
-    Points points;
-    std::unique_ptr<Tree> tree;
+    EmbeddedPoints points;
+    std::unique_ptr<EmbeddedTree> tree;
 };
 
 LocalLinearRegression::LocalLinearRegression(const BrdfSamples& samples, const SampleMetric& metric, int k)
@@ -57,7 +58,8 @@ LocalLinearRegression::LocalLinearRegression(const BrdfSamples& samples, const S
     for (const glm::vec3& unit : samples.unit) {
         index_->points.points.push_back(embeddedPoint(embeddedConfiguration(samples.domain, unit), metric));
     }
-    index_->tree = std::make_unique<Tree>(4, index_->points, nanoflann::KDTreeSingleIndexAdaptorParams(kLeafSize));
+    index_->tree =
+        std::make_unique<EmbeddedTree>(4, index_->points, nanoflann::KDTreeSingleIndexAdaptorParams(kPlaneLeafSize));
     index_->tree->buildIndex();
 }
 

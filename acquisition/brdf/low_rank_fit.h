@@ -1,5 +1,5 @@
 #pragma once
-#include "engine/scene/compact_brdf.h"
+#include "engine/brdf/compact_brdf.h"
 
 namespace nacre {
 

@@ -8,8 +8,8 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include "engine/scene/measures.h"
-#include "engine/scene/parallel_for.h"
+#include "engine/files/measures.h"
+#include "engine/files/parallel_for.h"
 
 namespace nacre {
 

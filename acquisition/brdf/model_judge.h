@@ -3,7 +3,7 @@
 
 #include "acquisition/brdf/interpolation.h"
 #include "acquisition/brdf/lobe_fit.h"
-#include "engine/scene/compact_brdf.h"
+#include "engine/brdf/compact_brdf.h"
 
 namespace nacre {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "acquisition/brdf/model_candidates.h"
-#include "engine/scene/parallel_for.h"
+#include "engine/files/parallel_for.h"
 
 namespace nacre {
 

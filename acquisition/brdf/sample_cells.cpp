@@ -7,7 +7,7 @@
 
 #include "acquisition/brdf/sample_embedding.h"
 #include "acquisition/normals/intensities.h"
-#include "engine/scene/parallel_for.h"
+#include "engine/files/parallel_for.h"
 
 namespace nacre {
 

@@ -9,9 +9,9 @@ namespace nacre {
 
 namespace {
 
-constexpr double kLeastConfidence = 0.05f; // what was not measured still has to be something
-constexpr double kLargestValue = 4096;     // of a component: far from both ends of a 16-bit float
-constexpr double kLeastShare = 1e-10;      // of the largest eigenvalue: below, a component is rounding
+constexpr double kLeastBasisConfidence = 0.05f; // what was not measured still has to be something
+constexpr double kLargestValue = 4096;          // of a component: far from both ends of a 16-bit float
+constexpr double kLeastShare = 1e-10;           // of the largest eigenvalue: below, a component is rounding
 
 // Texels by channels of materials, weighed so that squares add up to errors as they show.
 struct WeighedColumns {
@@ -37,7 +37,7 @@ WeighedColumns weighedColumns(std::span<const BasisMember> members)
             }
         }
     }
-    confidence = (confidence / static_cast<double>(members.size())).cwiseMax(kLeastConfidence).cwiseSqrt();
+    confidence = (confidence / static_cast<double>(members.size())).cwiseMax(kLeastBasisConfidence).cwiseSqrt();
     const Eigen::VectorXd size = result.values.rowwise().norm() / std::sqrt(static_cast<double>(columns));
     result.rowWeights = confidence.cwiseQuotient(size.cwiseMax(1.0));
     result.values = result.rowWeights.asDiagonal() * result.values;

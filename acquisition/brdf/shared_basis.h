@@ -1,7 +1,7 @@
 #pragma once
 #include <span>
 
-#include "engine/scene/compact_brdf.h"
+#include "engine/brdf/compact_brdf.h"
 
 namespace nacre {
 

@@ -6,13 +6,13 @@
 
 #include "acquisition/brdf/model_candidates.h"
 #include "acquisition/brdf/shared_basis.h"
-#include "engine/scene/parallel_for.h"
+#include "engine/files/parallel_for.h"
 
 namespace nacre {
 
 namespace {
 
-constexpr int kRanks[] = {1, 2, 3, 4, 5, 6, 8, 10, 12, 16, 20, 24, 32, 40, 48, 64};
+constexpr int kSharedRanks[] = {1, 2, 3, 4, 5, 6, 8, 10, 12, 16, 20, 24, 32, 40, 48, 64};
 constexpr size_t kMostValues = size_t{32} << 20; // that a fit holds
 
 struct Candidate {
@@ -42,7 +42,7 @@ std::vector<Candidate> candidatesOf(const glm::ivec3& full, size_t members, size
 {
     std::vector<Candidate> candidates;
     for (const glm::ivec3& size : candidateSizes(full)) {
-        for (const int rank : kRanks) {
+        for (const int rank : kSharedRanks) {
             const size_t bytes = static_cast<size_t>(rank) * (2 * texelsOf(size) + 3 * sizeof(float) * members);
             if (static_cast<size_t>(rank) <= 3 * members && bytes <= mostBytes &&
                 3 * members * texelsOf(size) <= kMostValues) {

@@ -11,8 +11,9 @@
 #include "acquisition/capture/capture_offset.h"
 #include "acquisition/capture/capture_window.h"
 #include "acquisition/capture/picture_files.h"
-#include "acquisition/lights/sphere_in_picture.h"
-#include "engine/scene/error.h"
+#include "acquisition/capture/sphere_specification.h"
+#include "engine/files/error.h"
+#include "engine/files/text_files.h"
 
 namespace nacre {
 namespace fs = std::filesystem;
@@ -71,16 +72,6 @@ void replaceDirections(Capture& capture)
         capture.lights.clear();
         capture.lightsSource.clear();
         capture.lightsOrder.clear();
-    }
-}
-
-void findSpheresInPicture(Capture& capture, const CaptureOptions& options)
-{
-    if (const auto sphere = sphereInPicture("--mirror-sphere", options.mirrorSphere)) {
-        capture.mirrorSphere->circle = circleInPicture(*sphere, capture);
-    }
-    if (const auto sphere = sphereInPicture("--diffuse-sphere", options.diffuseSphere)) {
-        capture.diffuseSphere->circle = circleInPicture(*sphere, capture);
     }
 }
 
@@ -368,7 +359,6 @@ Capture loadCapture(const fs::path& folder, const CaptureOptions& options)
     requireCounts(contents);
     examineHeaders(contents, options.transfer);
     Capture& capture = contents.capture;
-    findSpheresInPicture(capture, options);
     requireLabelSize(capture);
     requireSphereMask(capture.mirrorSphere);
     requireSphereMask(capture.diffuseSphere);

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "engine/scene/image.h"
-#include "engine/scene/light.h"
+#include "engine/files/image.h"
+#include "engine/lights/light.h"
 
 namespace nacre {
 
@@ -41,12 +41,23 @@ struct Circle {
     double radius = 0;
 };
 
-// Photographs of a calibration sphere, one per light in the capture's order; its outline as a mask or a circle.
+// Where a calibration sphere stands in the object's own photographs.
+struct SphereInPicture {
+    int x = 0; // of the crop around it, in pixels of the files
+    int y = 0;
+    int width = 0;
+    int height = 0;
+    std::filesystem::path mask; // white on the sphere, of the files' size or the crop's; empty: its outline is found
+};
+
+// Photographs of a calibration sphere, one per light in the capture's order; its outline as a mask, a circle or a
+// crop in which it is to be found.
 struct SpherePhotographs {
     std::filesystem::path source; // what the user named, for messages
     std::vector<Photograph> photographs;
     std::filesystem::path maskFile; // empty where the circle is given
     std::optional<Circle> circle;
+    std::optional<SphereInPicture> inPicture;
 };
 
 enum class CaptureLayout { uw, diligent, rti, json };

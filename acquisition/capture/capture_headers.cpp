@@ -5,7 +5,7 @@
 
 #include "acquisition/capture/capture_layouts.h"
 #include "acquisition/capture/capture_window.h"
-#include "engine/scene/error.h"
+#include "engine/files/error.h"
 
 namespace nacre {
 

@@ -5,7 +5,7 @@
 
 #include "acquisition/capture/capture_layouts.h"
 #include "acquisition/capture/json_photographs.h"
-#include "acquisition/capture/strict_json.h"
+#include "engine/files/strict_json.h"
 
 namespace nacre {
 namespace fs = std::filesystem;

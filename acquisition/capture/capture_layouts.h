@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "acquisition/capture/capture.h"
-#include "acquisition/lights/light_files.h"
+#include "engine/lights/light_files.h"
 
 namespace nacre {
 

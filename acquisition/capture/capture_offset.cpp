@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "acquisition/capture/observations.h"
-#include "engine/scene/measures.h"
+#include "engine/files/measures.h"
 
 namespace nacre {
 

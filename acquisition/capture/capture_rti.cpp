@@ -8,7 +8,8 @@
 
 #include "acquisition/capture/capture_layouts.h"
 #include "acquisition/capture/picture_files.h"
-#include "engine/scene/error.h"
+#include "engine/files/error.h"
+#include "engine/files/text_files.h"
 
 namespace nacre {
 namespace fs = std::filesystem;

@@ -6,7 +6,7 @@
 
 #include "acquisition/capture/capture_layouts.h"
 #include "acquisition/capture/picture_files.h"
-#include "engine/scene/error.h"
+#include "engine/files/error.h"
 
 namespace nacre {
 namespace fs = std::filesystem;

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "acquisition/capture/capture.h"
-#include "engine/scene/normal_map.h"
+#include "engine/surface/normal_map.h"
 
 namespace nacre {
 

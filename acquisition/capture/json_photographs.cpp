@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "acquisition/capture/capture_layouts.h"
-#include "acquisition/capture/strict_json.h"
+#include "engine/files/strict_json.h"
 
 namespace nacre {
 

@@ -6,7 +6,7 @@
 #include <glm/geometric.hpp>
 #include <matio.h>
 
-#include "engine/scene/error.h"
+#include "engine/files/error.h"
 
 namespace nacre {
 

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "acquisition/capture/exposure_merge.h"
-#include "engine/scene/error.h"
+#include "engine/files/error.h"
 
 namespace nacre {
 

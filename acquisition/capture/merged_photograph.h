@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "acquisition/capture/capture.h"
-#include "engine/scene/image.h"
+#include "engine/files/image.h"
 
 namespace nacre {
 

@@ -11,9 +11,9 @@
 #include <fmt/format.h>
 
 #include "acquisition/capture/photograph_files.h"
-#include "engine/scene/error.h"
-#include "engine/scene/parallel_for.h"
-#include "engine/scene/temporary_folder.h"
+#include "engine/files/error.h"
+#include "engine/files/parallel_for.h"
+#include "engine/files/temporary_folder.h"
 
 namespace nacre {
 

@@ -9,7 +9,7 @@
 #include <unistd.h>
 
 #include "acquisition/capture/progressive_pictures.h"
-#include "engine/scene/error.h"
+#include "engine/files/error.h"
 
 namespace nacre {
 namespace fs = std::filesystem;

@@ -6,7 +6,8 @@
 
 #include <fmt/format.h>
 
-#include "engine/scene/error.h"
+#include "engine/files/error.h"
+#include "engine/files/text_files.h"
 
 namespace nacre {
 namespace fs = std::filesystem;
@@ -94,13 +95,6 @@ void requireDistinctNumbers(const NumberedPictures& pictures)
 }
 
 } // namespace
-
-std::string lowerCase(std::string_view text)
-{
-    std::string result(text);
-    std::transform(result.begin(), result.end(), result.begin(), lower);
-    return result;
-}
 
 bool naturalLess(std::string_view a, std::string_view b)
 {

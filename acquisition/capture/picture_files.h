@@ -7,8 +7,6 @@
 
 namespace nacre {
 
-std::string lowerCase(std::string_view text);
-
 // "9" before "10": runs of digits compare as numbers, letters without regard to case.
 bool naturalLess(std::string_view a, std::string_view b);
 

@@ -2,7 +2,7 @@
 #include <optional>
 
 #include "acquisition/capture/capture.h"
-#include "engine/scene/image.h"
+#include "engine/files/image.h"
 
 namespace nacre {
 

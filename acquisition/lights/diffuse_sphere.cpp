@@ -9,8 +9,8 @@
 #include <glm/matrix.hpp>
 #include <glm/trigonometric.hpp>
 
-#include "engine/scene/error.h"
-#include "engine/scene/measures.h"
+#include "engine/files/error.h"
+#include "engine/files/measures.h"
 
 namespace nacre {
 

@@ -3,7 +3,7 @@
 
 #include <glm/vec2.hpp>
 
-#include "engine/scene/image.h"
+#include "engine/files/image.h"
 
 namespace nacre {
 

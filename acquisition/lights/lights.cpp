@@ -12,9 +12,11 @@
 #include "acquisition/capture/merged_photograph.h"
 #include "acquisition/lights/mirror_sphere.h"
 #include "acquisition/lights/sphere_agreement.h"
-#include "engine/scene/error.h"
-#include "engine/scene/measures.h"
-#include "engine/scene/parallel_for.h"
+#include "acquisition/lights/sphere_in_picture.h"
+#include "acquisition/lights/sphere_outline.h"
+#include "engine/files/error.h"
+#include "engine/files/measures.h"
+#include "engine/files/parallel_for.h"
 #include "shared/glsl.h"
 
 namespace nacre {
@@ -32,8 +34,11 @@ constexpr double kLargestError = 4;
 // highlight are no majority.
 constexpr size_t kFewestForOutliers = 7;
 
-Circle outlineOf(const SpherePhotographs& sphere)
+Circle outlineOf(const SpherePhotographs& sphere, const Capture& capture)
 {
+    if (sphere.inPicture) {
+        return circleInPicture(*sphere.inPicture, capture);
+    }
     if (sphere.circle) {
         return *sphere.circle;
     }
@@ -46,7 +51,7 @@ std::vector<Light> directionsFromMirror(const Capture& capture, int threads)
 {
     const SpherePhotographs& sphere = *capture.mirrorSphere;
     std::vector<Light> lights(sphere.photographs.size());
-    const Circle outline = outlineOf(sphere);
+    const Circle outline = outlineOf(sphere, capture);
     parallelFor(lights.size(), 1, threads, [&](size_t first, size_t) {
         const std::filesystem::path& file = sphere.photographs[first].exposures.front().file;
         const MergedPhotograph merged = loadMerged(sphere.photographs[first], capture);
@@ -71,7 +76,7 @@ void scaleIrradiances(Rig& rig, const std::optional<glm::vec3>& reflectance)
 void addIrradiances(const Capture& capture, const CalibrationOptions& options, Rig& rig)
 {
     const SpherePhotographs& sphere = *capture.diffuseSphere;
-    const Circle outline = outlineOf(sphere);
+    const Circle outline = outlineOf(sphere, capture);
     std::vector<DiffuseSphereReading> readings(rig.lights.size());
     parallelFor(rig.lights.size(), 1, options.threads, [&](size_t i, size_t) {
         const std::filesystem::path& file = sphere.photographs[i].exposures.front().file;

@@ -4,7 +4,7 @@
 #include <glm/vec3.hpp>
 
 #include "acquisition/lights/sphere_outline.h"
-#include "engine/scene/image.h"
+#include "engine/files/image.h"
 
 namespace nacre {
 

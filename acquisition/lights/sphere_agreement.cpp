@@ -12,7 +12,7 @@ namespace nacre {
 namespace {
 
 constexpr size_t kFewestLights = 3;
-constexpr double kLargestTurn = 2; // degrees; real spheres: docs/stability.md
+constexpr double kLargestSphereTurn = 2; // degrees; real spheres: docs/stability.md
 constexpr double kSigmas = 3;
 
 } // namespace
@@ -45,7 +45,7 @@ std::optional<std::string> sphereWarning(const std::vector<glm::vec3>& mirror, c
         return {};
     }
     const CommonTurn turn = commonTurn(mirror, shading);
-    if (turn.degrees < kLargestTurn || turn.degrees < kSigmas * turn.standardError) {
+    if (turn.degrees < kLargestSphereTurn || turn.degrees < kSigmas * turn.standardError) {
         return {};
     }
     return fmt::format("the diffuse sphere's shading puts all lights {:.1f} degrees to one side of where they are said "

@@ -1,32 +1,26 @@
 #include "acquisition/lights/sphere_in_picture.h"
 
 #include <algorithm>
-#include <charconv>
 #include <vector>
 
 #include <fmt/format.h>
 
+#include "acquisition/capture/sphere_specification.h"
 #include "acquisition/lights/circle_search.h"
 #include "acquisition/lights/sphere_outline.h"
-#include "engine/scene/error.h"
-#include "engine/scene/image.h"
-#include "engine/scene/measures.h"
+#include "engine/files/error.h"
+#include "engine/files/image.h"
+#include "engine/files/measures.h"
 
 namespace nacre {
 namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::string_view kPrefix = "in-picture:";
 constexpr size_t kMostPhotographs = 15; // little to read
 // Of a pixel's values: a highlight is brighter in one or two of the photographs, and the sphere's own shadow on what it
 // stands on is there, beside the outline, in up to half of them.
 constexpr double kUsualQuantile = 0.75;
-
-std::string numbersOf(const SphereInPicture& sphere)
-{
-    return fmt::format("{},{},{},{}", sphere.x, sphere.y, sphere.width, sphere.height);
-}
 
 void requireInside(const SphereInPicture& sphere, const Capture& capture)
 {
@@ -36,7 +30,7 @@ void requireInside(const SphereInPicture& sphere, const Capture& capture)
     if (!inside) {
         throw Error(capture.photographs[0].exposures[0].file,
                     fmt::format("is {} x {}, the sphere's crop {} is not inside", files.fileWidth, files.fileHeight,
-                                numbersOf(sphere)),
+                                rectangleOf(sphere)),
                     "X,Y,W,H in pixels, the top left pixel being 0,0");
     }
 }
@@ -99,46 +93,6 @@ std::vector<uint8_t> loadSphereMask(const SphereInPicture& sphere, const FileWin
 
 } // namespace
 
-std::optional<SphereInPicture> sphereInPicture(const std::string& option, const fs::path& specification)
-{
-    const std::string& text = specification.native();
-    if (!text.starts_with(kPrefix)) {
-        return std::nullopt;
-    }
-    SphereInPicture sphere;
-    const char* at = text.data() + kPrefix.size();
-    const char* const end = text.data() + text.size();
-    bool understood = true;
-    for (int* number : {&sphere.x, &sphere.y, &sphere.width, &sphere.height}) {
-        if (number != &sphere.x) {
-            understood = understood && at != end && *at++ == ',';
-        }
-        const auto [next, problem] = std::from_chars(at, end, *number);
-        understood =
-            understood && problem == std::errc() && *number >= (number == &sphere.x || number == &sphere.y ? 0 : 1);
-        at = next;
-    }
-    if (understood && at != end && *at == ',') {
-        sphere.mask = std::string(at + 1, end);
-        at = end;
-        understood = !sphere.mask.empty();
-    }
-    if (!understood || at != end) {
-        throw Error("", fmt::format("{} {} is not understood", option, text),
-                    "in-picture:X,Y,W,H in whole pixels of the photographs, and a mask after a comma if you like",
-                    Error::kUsage);
-    }
-    return sphere;
-}
-
-SpherePhotographs photographsOfSphere(const SphereInPicture& sphere, const Capture& capture)
-{
-    SpherePhotographs photographs;
-    photographs.source = fmt::format("the sphere in the picture at {}", numbersOf(sphere));
-    photographs.photographs = capture.photographs;
-    return photographs;
-}
-
 Circle circleInPicture(const SphereInPicture& sphere, const Capture& capture)
 {
     requireInside(sphere, capture);
@@ -150,7 +104,7 @@ Circle circleInPicture(const SphereInPicture& sphere, const Capture& capture)
     }
     if (!circle) {
         throw Error(capture.photographs[0].exposures[0].file,
-                    fmt::format("shows no outline of a sphere at {}", numbersOf(sphere)),
+                    fmt::format("shows no outline of a sphere at {}", rectangleOf(sphere)),
                     "X,Y,W,H around one sphere and little else, or its mask after the numbers");
     }
     return {circle->x + sphere.x, circle->y + sphere.y, circle->radius};

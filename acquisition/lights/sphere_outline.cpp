@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 
-#include "engine/scene/error.h"
+#include "engine/files/error.h"
 
 namespace nacre {
 

@@ -8,7 +8,7 @@
 #include <glm/vec3.hpp>
 
 #include "acquisition/capture/capture.h"
-#include "engine/scene/normal_map.h"
+#include "engine/surface/normal_map.h"
 
 namespace nacre {
 

@@ -1,6 +1,6 @@
 #include "acquisition/normals/intensities.h"
 
-#include "engine/scene/measures.h"
+#include "engine/files/measures.h"
 
 namespace nacre {
 

@@ -6,7 +6,7 @@
 #include <glm/vec3.hpp>
 
 #include "acquisition/capture/observations.h"
-#include "engine/scene/light.h"
+#include "engine/lights/light.h"
 
 namespace nacre {
 

@@ -6,7 +6,7 @@
 #include <Eigen/Dense>
 #include <glm/geometric.hpp>
 
-#include "engine/scene/parallel_for.h"
+#include "engine/files/parallel_for.h"
 
 namespace nacre {
 

@@ -4,7 +4,7 @@
 
 #include <glm/mat3x3.hpp>
 
-#include "engine/scene/light.h"
+#include "engine/lights/light.h"
 
 namespace nacre {
 

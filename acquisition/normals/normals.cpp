@@ -2,9 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "acquisition/normals/normal_selection.h"
-#include "acquisition/normals/normals_exemplar.h"
-#include "engine/scene/error.h"
+#include "engine/files/error.h"
 
 namespace nacre {
 
@@ -50,30 +48,6 @@ std::string nameOf(NormalMethod method)
         }
     }
     return {};
-}
-
-NormalEstimator makeNormalEstimator(const Intensities& sample, const std::vector<Light>& lights,
-                                    const NormalOptions& options, NormalReport& report)
-{
-    report.method = options.method == NormalMethod::automatic
-                        ? selectNormalMethod(sample, lights, options, report.remarks)
-                        : options.method;
-    switch (report.method) {
-    case NormalMethod::leastSquares:
-        return makeLeastSquaresEstimator(lights, options);
-    case NormalMethod::threshold:
-        return makeThresholdEstimator(lights, options);
-    case NormalMethod::twoStep:
-        return makeTwoStepEstimator(lights, options);
-    case NormalMethod::ransac:
-        return makeRansacEstimator(lights, options);
-    case NormalMethod::exemplar:
-        return makeExemplarEstimator(sample, lights, options, report.remarks);
-    case NormalMethod::automatic:
-    case NormalMethod::consensus:
-        break;
-    }
-    return makeConsensusEstimator(lights, options);
 }
 
 } // namespace nacre

@@ -65,8 +65,4 @@ struct NormalReport {
     double lambertianResidual = std::numeric_limits<double>::quiet_NaN();
 };
 
-// `sample`: pixels from all over the object, for methods that choose by it (auto, exemplar). auto is decided here.
-NormalEstimator makeNormalEstimator(const Intensities& sample, const std::vector<Light>& lights,
-                                    const NormalOptions& options, NormalReport& report);
-
 } // namespace nacre

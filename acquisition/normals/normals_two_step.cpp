@@ -6,7 +6,7 @@
 
 #include "acquisition/normals/lambertian_solver.h"
 #include "acquisition/normals/light_triples.h"
-#include "engine/scene/measures.h"
+#include "engine/files/measures.h"
 
 namespace nacre {
 

@@ -2,8 +2,8 @@
 #include <cstdint>
 #include <span>
 
-#include "engine/scene/image.h"
-#include "engine/scene/normal_map.h"
+#include "engine/files/image.h"
+#include "engine/surface/normal_map.h"
 
 namespace nacre {
 

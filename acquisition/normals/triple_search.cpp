@@ -5,7 +5,7 @@
 
 #include "acquisition/normals/lanes.h"
 #include "acquisition/normals/pixel_batch.h"
-#include "engine/scene/parallel_for.h"
+#include "engine/files/parallel_for.h"
 
 namespace nacre {
 

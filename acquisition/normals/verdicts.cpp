@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "acquisition/normals/intensities.h"
-#include "engine/scene/measures.h"
+#include "engine/files/measures.h"
 
 namespace nacre {
 

@@ -2,7 +2,7 @@
 #include <span>
 #include <vector>
 
-#include "engine/scene/surface.h"
+#include "engine/surface/surface.h"
 
 namespace nacre {
 

@@ -2,7 +2,7 @@
 
 #include <Eigen/Dense>
 
-#include "engine/scene/residual_layer.h"
+#include "engine/surface/residual_layer.h"
 
 namespace nacre {
 namespace {

@@ -5,7 +5,7 @@
 #include <Eigen/Dense>
 
 #include "acquisition/residual/light_spline.h"
-#include "engine/scene/light_plane.h"
+#include "engine/lights/light_plane.h"
 
 namespace nacre {
 namespace {

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "acquisition/residual/light_spline.h"
-#include "engine/scene/parallel_for.h"
+#include "engine/files/parallel_for.h"
 
 namespace nacre {
 namespace {

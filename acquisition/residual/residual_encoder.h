@@ -1,7 +1,7 @@
 #pragma once
 #include "acquisition/residual/light_balls.h"
 #include "acquisition/residual/residual_choice.h"
-#include "engine/scene/surface.h"
+#include "engine/surface/surface.h"
 
 namespace nacre {
 

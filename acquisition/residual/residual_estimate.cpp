@@ -8,8 +8,8 @@
 #include "acquisition/residual/residual_choice.h"
 #include "acquisition/residual/residual_components.h"
 #include "acquisition/residual/residual_encoder.h"
-#include "engine/scene/error.h"
-#include "engine/scene/measures.h"
+#include "engine/files/error.h"
+#include "engine/files/measures.h"
 
 namespace nacre {
 namespace {

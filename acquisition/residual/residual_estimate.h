@@ -3,7 +3,7 @@
 
 #include "acquisition/capture/observations.h"
 #include "acquisition/residual/residual_report.h"
-#include "engine/scene/surface.h"
+#include "engine/surface/surface.h"
 
 namespace nacre {
 

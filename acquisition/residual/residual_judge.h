@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 
 #include "acquisition/residual/residual_rows.h"
-#include "engine/scene/light.h"
+#include "engine/lights/light.h"
 
 namespace nacre {
 

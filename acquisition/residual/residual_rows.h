@@ -7,7 +7,7 @@
 
 #include "acquisition/capture/observations.h"
 #include "acquisition/residual/light_balls.h"
-#include "engine/scene/surface.h"
+#include "engine/surface/surface.h"
 
 namespace nacre {
 

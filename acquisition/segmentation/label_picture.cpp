@@ -8,8 +8,8 @@
 
 #include "acquisition/capture/capture_window.h"
 #include "acquisition/segmentation/segment_options.h"
-#include "engine/scene/error.h"
-#include "engine/scene/image.h"
+#include "engine/files/error.h"
+#include "engine/files/image.h"
 
 namespace nacre {
 

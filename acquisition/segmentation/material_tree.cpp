@@ -11,7 +11,7 @@
 
 #include "acquisition/segmentation/density_valley.h"
 #include "acquisition/segmentation/label_picture.h"
-#include "engine/scene/measures.h"
+#include "engine/files/measures.h"
 
 namespace nacre {
 

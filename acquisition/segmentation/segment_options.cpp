@@ -4,8 +4,8 @@
 
 #include <fmt/format.h>
 
-#include "acquisition/capture/text_files.h"
-#include "engine/scene/error.h"
+#include "engine/files/error.h"
+#include "engine/files/text_files.h"
 
 namespace nacre {
 

@@ -6,7 +6,7 @@
 
 #include "acquisition/segmentation/label_regions.h"
 #include "acquisition/segmentation/material_tree.h"
-#include "engine/scene/error.h"
+#include "engine/files/error.h"
 
 namespace nacre {
 

@@ -1,7 +1,7 @@
 #include "engine/gpu/context.h"
 
+#include "engine/files/error.h"
 #include "engine/gpu/check.h"
-#include "engine/scene/error.h"
 
 namespace nacre {
 namespace {

@@ -9,9 +9,9 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "engine/files/error.h"
 #include "engine/gpu/check.h"
 #include "engine/gpu/instance.h"
-#include "engine/scene/error.h"
 
 namespace nacre {
 namespace {

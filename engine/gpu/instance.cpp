@@ -4,8 +4,8 @@
 #include <cstdlib>
 #include <string_view>
 
+#include "engine/files/error.h"
 #include "engine/gpu/check.h"
-#include "engine/scene/error.h"
 
 namespace nacre {
 namespace {

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "engine/gpu/pass.h"
-#include "engine/scene/light.h"
+#include "engine/lights/light.h"
 
 namespace nacre {
 

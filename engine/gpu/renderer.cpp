@@ -6,9 +6,9 @@
 
 #include <fmt/format.h>
 
-#include "engine/scene/error.h"
-#include "engine/scene/sampled_pixels.h"
+#include "engine/files/error.h"
 #include "engine/scene/scene_residual.h"
+#include "engine/surface/sampled_pixels.h"
 
 namespace nacre {
 namespace {

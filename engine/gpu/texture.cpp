@@ -8,9 +8,9 @@
 #include <glm/gtc/packing.hpp>
 #include <glm/packing.hpp>
 
+#include "engine/files/error.h"
 #include "engine/gpu/buffer.h"
 #include "engine/gpu/check.h"
-#include "engine/scene/error.h"
 
 namespace nacre {
 namespace {

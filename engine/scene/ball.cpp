@@ -5,7 +5,7 @@
 
 #include <glm/geometric.hpp>
 
-#include "engine/scene/parallel_for.h"
+#include "engine/files/parallel_for.h"
 #include "shared/ball.h"
 #include "shared/shading.h"
 

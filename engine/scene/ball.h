@@ -1,9 +1,9 @@
 #pragma once
 #include <span>
 
-#include "engine/scene/brdf_table.h"
-#include "engine/scene/image.h"
-#include "engine/scene/light.h"
+#include "engine/brdf/brdf_table.h"
+#include "engine/files/image.h"
+#include "engine/lights/light.h"
 
 namespace nacre {
 

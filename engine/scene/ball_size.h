@@ -1,5 +1,5 @@
 #pragma once
-#include "engine/scene/brdf_table.h"
+#include "engine/brdf/brdf_table.h"
 
 namespace nacre {
 

@@ -4,8 +4,8 @@
 
 #include <glm/geometric.hpp>
 
-#include "engine/scene/parallel_for.h"
-#include "engine/scene/sampled_pixels.h"
+#include "engine/files/parallel_for.h"
+#include "engine/surface/sampled_pixels.h"
 
 namespace nacre {
 namespace {

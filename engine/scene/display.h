@@ -1,5 +1,5 @@
 #pragma once
-#include "engine/scene/image.h"
+#include "engine/files/image.h"
 #include "shared/tone.h"
 
 namespace nacre {

@@ -8,8 +8,8 @@
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
-#include "engine/scene/error.h"
-#include "engine/scene/light_motion.h"
+#include "engine/files/error.h"
+#include "engine/lights/light_motion.h"
 
 namespace nacre {
 

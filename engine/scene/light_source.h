@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/scene/surface.h"
+#include "engine/surface/surface.h"
 
 namespace nacre {
 

@@ -5,8 +5,8 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "engine/files/parallel_for.h"
 #include "engine/scene/ball.h"
-#include "engine/scene/parallel_for.h"
 #include "shared/shading.h"
 
 namespace nacre {

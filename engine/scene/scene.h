@@ -1,8 +1,8 @@
 #pragma once
 #include <vector>
 
-#include "engine/scene/image.h"
-#include "engine/scene/surface.h"
+#include "engine/files/image.h"
+#include "engine/surface/surface.h"
 
 namespace nacre {
 

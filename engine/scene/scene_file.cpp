@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "engine/scene/error.h"
-#include "engine/scene/whole_file.h"
+#include "engine/files/error.h"
+#include "engine/files/whole_file.h"
 
 namespace nacre {
 namespace fs = std::filesystem;

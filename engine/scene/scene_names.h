@@ -2,7 +2,7 @@
 #include <string>
 
 #include "engine/scene/false_colour.h"
-#include "engine/scene/residual_layer.h"
+#include "engine/surface/residual_layer.h"
 
 namespace nacre {
 

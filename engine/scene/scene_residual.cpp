@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "engine/scene/error.h"
+#include "engine/files/error.h"
 
 namespace nacre {
 

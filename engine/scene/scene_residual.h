@@ -1,7 +1,7 @@
 #pragma once
 #include <span>
 
-#include "engine/scene/surface.h"
+#include "engine/surface/surface.h"
 
 namespace nacre {
 

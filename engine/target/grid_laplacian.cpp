@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "engine/scene/parallel_for.h"
+#include "engine/files/parallel_for.h"
 
 namespace nacre {
 namespace {

@@ -1,6 +1,6 @@
 #pragma once
-#include "engine/scene/image.h"
-#include "engine/scene/normal_map.h"
+#include "engine/files/image.h"
+#include "engine/surface/normal_map.h"
 
 namespace nacre {
 

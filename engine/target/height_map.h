@@ -3,7 +3,7 @@
 #include <optional>
 #include <string>
 
-#include "engine/scene/surface.h"
+#include "engine/surface/surface.h"
 
 namespace nacre {
 

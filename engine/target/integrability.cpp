@@ -14,7 +14,7 @@ constexpr int kScales = 3;
 // Fewer cells may agree by chance.
 constexpr size_t kFewestCells = 1000;
 // Steeper normals have slopes that say more about rounding than about shape.
-constexpr float kLeastZ = 0.2f;
+constexpr float kLeastSlopeZ = 0.2f;
 // One residual has to be below this share of the other. Wool, sails, own targets and camera-space maps have 0.02 to
 // 0.4, atlases of statues 0.4 to 0.5; noise and cylinders 1.
 constexpr double kTelling = 0.75;
@@ -36,8 +36,8 @@ Residuals residualsOf(const NormalMap& map)
             bool known = true;
             for (int k = 0; k < 4; ++k) {
                 const glm::vec3& n = map.normals[corners[k]];
-                known = known && map.confidence[corners[k]] > 0 && n.z >= kLeastZ;
-                slope[k] = slopeOfNormal(n, kLeastZ);
+                known = known && map.confidence[corners[k]] > 0 && n.z >= kLeastSlopeZ;
+                slope[k] = slopeOfNormal(n, kLeastSlopeZ);
             }
             if (known) {
                 const float pUp = 0.5f * (slope[0].x + slope[1].x - slope[2].x - slope[3].x);

@@ -1,5 +1,5 @@
 #pragma once
-#include "engine/scene/normal_map.h"
+#include "engine/surface/normal_map.h"
 
 namespace nacre {
 

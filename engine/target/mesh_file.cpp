@@ -11,7 +11,7 @@
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 
-#include "engine/scene/error.h"
+#include "engine/files/error.h"
 #include "engine/target/mesh_file_end.h"
 #include "engine/target/mesh_normals.h"
 #include "engine/target/mesh_tangents.h"

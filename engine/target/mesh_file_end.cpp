@@ -7,8 +7,8 @@
 
 #include <fmt/format.h>
 
-#include "engine/scene/error.h"
-#include "engine/scene/whole_file.h"
+#include "engine/files/error.h"
+#include "engine/files/whole_file.h"
 #include "engine/target/ply_size.h"
 
 namespace nacre {

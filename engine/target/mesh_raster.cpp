@@ -4,9 +4,9 @@
 #include <map>
 #include <optional>
 
+#include "engine/files/parallel_for.h"
 #include "engine/gpu/buffer.h"
 #include "engine/gpu/pass.h"
-#include "engine/scene/parallel_for.h"
 #include "engine/target/depth_buffer.h"
 #include "engine/target/mesh_pipeline.h"
 #include "engine/target/mesh_resolve.h"

@@ -1,6 +1,6 @@
 #pragma once
 #include "engine/gpu/context.h"
-#include "engine/scene/surface.h"
+#include "engine/surface/surface.h"
 #include "engine/target/mesh_view.h"
 
 namespace nacre {

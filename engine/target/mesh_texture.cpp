@@ -6,9 +6,9 @@
 #include <assimp/scene.h>
 #include <fmt/format.h>
 
-#include "engine/scene/error.h"
-#include "engine/scene/temporary_folder.h"
-#include "engine/scene/whole_file.h"
+#include "engine/files/error.h"
+#include "engine/files/temporary_folder.h"
+#include "engine/files/whole_file.h"
 
 namespace nacre {
 namespace fs = std::filesystem;

@@ -1,7 +1,7 @@
 #pragma once
 #include <filesystem>
 
-#include "engine/scene/normal_map.h"
+#include "engine/surface/normal_map.h"
 
 struct aiMaterial;
 struct aiScene;

@@ -1,5 +1,5 @@
 #pragma once
-#include "engine/scene/surface.h"
+#include "engine/surface/surface.h"
 #include "engine/target/height_from_normals.h"
 #include "engine/target/integrability.h"
 

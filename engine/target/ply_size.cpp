@@ -8,7 +8,7 @@
 
 #include <fmt/format.h>
 
-#include "engine/scene/error.h"
+#include "engine/files/error.h"
 
 namespace nacre {
 namespace fs = std::filesystem;

@@ -5,8 +5,8 @@
 
 #include <fmt/format.h>
 
-#include "engine/scene/measures.h"
-#include "engine/scene/normal_map.h"
+#include "engine/files/measures.h"
+#include "engine/surface/normal_map.h"
 
 namespace nacre {
 

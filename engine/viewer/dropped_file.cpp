@@ -2,9 +2,9 @@
 
 #include <string>
 
-#include "engine/scene/error.h"
-#include "engine/scene/image.h"
-#include "engine/scene/whole_file.h"
+#include "engine/files/error.h"
+#include "engine/files/image.h"
+#include "engine/files/whole_file.h"
 
 namespace nacre {
 

@@ -1,7 +1,7 @@
 #pragma once
 #include <vector>
 
-#include "engine/scene/brdf_table.h"
+#include "engine/brdf/brdf_table.h"
 
 namespace nacre {
 

@@ -1,6 +1,6 @@
 #pragma once
+#include "engine/files/image.h"
 #include "engine/gpu/texture.h"
-#include "engine/scene/image.h"
 
 namespace nacre {
 

@@ -1,6 +1,6 @@
 #include "engine/viewer/scene_source.h"
 
-#include "engine/scene/error.h"
+#include "engine/files/error.h"
 
 namespace nacre {
 

@@ -3,9 +3,9 @@
 #include <memory>
 #include <optional>
 
+#include "engine/lights/environment.h"
 #include "engine/scene/ball_size.h"
-#include "engine/scene/environment.h"
-#include "engine/scene/surface.h"
+#include "engine/surface/surface.h"
 #include "engine/viewer/choices.h"
 #include "engine/viewer/photographs.h"
 

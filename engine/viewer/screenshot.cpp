@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "engine/files/whole_file.h"
 #include "engine/scene/scene_file.h"
-#include "engine/scene/whole_file.h"
 
 namespace nacre {
 

@@ -1,7 +1,7 @@
 #pragma once
 #include <filesystem>
 
-#include "engine/scene/image.h"
+#include "engine/files/image.h"
 #include "engine/viewer/view_state.h"
 
 namespace nacre {

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
+#include "engine/files/error.h"
 #include "engine/gpu/check.h"
 #include "engine/gpu/texture.h"
-#include "engine/scene/error.h"
 
 namespace nacre {
 

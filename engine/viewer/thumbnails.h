@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "engine/gpu/texture.h"
-#include "engine/scene/surface.h"
+#include "engine/surface/surface.h"
 
 namespace nacre {
 

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "engine/scene/normal_map.h"
+#include "engine/surface/normal_map.h"
 
 namespace nacre {
 

@@ -5,8 +5,8 @@
 
 #include "engine/scene/false_colour.h"
 #include "engine/scene/light_source.h"
-#include "engine/scene/residual_layer.h"
 #include "engine/scene/scene_file.h"
+#include "engine/surface/residual_layer.h"
 
 namespace nacre {
 

@@ -4,7 +4,7 @@
 #include <glm/common.hpp>
 #include <imgui.h>
 
-#include "engine/scene/error.h"
+#include "engine/files/error.h"
 #include "engine/viewer/screenshot.h"
 #include "engine/viewer/viewer_window.h"
 

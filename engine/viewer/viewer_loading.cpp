@@ -1,6 +1,6 @@
 #include <fmt/format.h>
 
-#include "engine/scene/error.h"
+#include "engine/files/error.h"
 #include "engine/scene/scene_residual.h"
 #include "engine/viewer/picture_texture.h"
 #include "engine/viewer/thumbnails.h"
@@ -11,7 +11,7 @@ namespace nacre {
 namespace {
 
 constexpr int kBallSize = 200; // units of layout
-constexpr int kFramesToSettle = 3;
+constexpr int kLoadingFramesToSettle = 3;
 
 // Whether what is loaded for one state serves the other.
 bool sharesScene(const ViewState& a, const ViewState& b)
@@ -61,7 +61,7 @@ void ViewerWindow::takeScene(const ViewState& state, const LoadedScene& scene)
     drop_.reset();
     session_.hasPhotographs = photographsAreRead_ && state.onto.empty() && !state.surface.empty();
     session_.hasResidual = hasResidualFrom(scene.main->surface, view_);
-    framesLeft_ = kFramesToSettle;
+    framesLeft_ = kLoadingFramesToSettle;
 }
 
 // Starts reading where the state has come to ask for something else than what is shown.
@@ -103,7 +103,7 @@ void ViewerWindow::keepLoaded()
         addLight(session_);
     }
     requested_ = session_.state;
-    framesLeft_ = kFramesToSettle;
+    framesLeft_ = kLoadingFramesToSettle;
 }
 
 void ViewerWindow::cancelLoading()
@@ -120,7 +120,7 @@ void ViewerWindow::finishLoading()
 {
     try {
         if (sceneLoader_.finish() || photographLoader_.finish()) {
-            framesLeft_ = kFramesToSettle;
+            framesLeft_ = kLoadingFramesToSettle;
         }
     } catch (const Error& e) {
         session_.message = e.what();
@@ -128,7 +128,7 @@ void ViewerWindow::finishLoading()
     }
     try {
         if (thumbnailLoader_.finish()) {
-            framesLeft_ = kFramesToSettle;
+            framesLeft_ = kLoadingFramesToSettle;
         }
     } catch (const Error&) {
         // The list does without this picture; choosing the material says what is wrong with it.

@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
-#include "engine/scene/error.h"
+#include "engine/files/error.h"
 #include "engine/scene/scene_residual.h"
 #include "engine/viewer/comparison.h"
 #include "engine/viewer/picture_texture.h"

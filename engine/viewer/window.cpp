@@ -6,8 +6,8 @@
 #define GLFW_INCLUDE_VULKAN
 #include <GLFW/glfw3.h>
 
+#include "engine/files/error.h"
 #include "engine/gpu/check.h"
-#include "engine/scene/error.h"
 
 namespace nacre {
 

@@ -1,10 +1,10 @@
 // Real photographs with published figures.
 #include <gtest/gtest.h>
 
-#include "acquisition/acquire.h"
 #include "acquisition/capture/matlab_normals.h"
+#include "acquisition/chain/acquire.h"
 #include "acquisition/lights/sphere_outline.h"
-#include "engine/scene/measures.h"
+#include "engine/files/measures.h"
 #include "tests/support/data_folder.h"
 
 namespace nacre {

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "acquisition/capture/capture.h"
-#include "acquisition/lights/light_files.h"
+#include "engine/lights/light_files.h"
 #include "tests/support/expect_error.h"
 #include "tests/support/temp_folder.h"
 #include "tests/support/write_capture.h"

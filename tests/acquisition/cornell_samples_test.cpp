@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "acquisition/brdf/interpolation.h"
-#include "engine/scene/brdf_comparison.h"
+#include "engine/brdf/brdf_comparison.h"
 #include "tests/support/data_folder.h"
 #include "tests/support/expect_error.h"
 #include "tests/support/temp_folder.h"

@@ -1,11 +1,11 @@
 // Photographs that no intensity reconciles with the others.
 #include <gtest/gtest.h>
 
-#include "acquisition/acquire.h"
 #include "acquisition/capture/matlab_normals.h"
-#include "assets/synth_capture.h"
-#include "engine/scene/image.h"
-#include "engine/scene/measures.h"
+#include "acquisition/chain/acquire.h"
+#include "assets/synth/synth_capture.h"
+#include "engine/files/image.h"
+#include "engine/files/measures.h"
 #include "tests/support/data_folder.h"
 #include "tests/support/temp_folder.h"
 

@@ -1,4 +1,4 @@
-#include "acquisition/normals/height_consistency.h"
+#include "acquisition/checks/height_consistency.h"
 
 #include <cmath>
 

@@ -5,7 +5,7 @@
 
 #include "acquisition/brdf/bake.h"
 #include "acquisition/brdf/kernel_regression.h"
-#include "engine/scene/error.h"
+#include "engine/files/error.h"
 
 namespace nacre {
 namespace {

@@ -5,7 +5,7 @@
 #include "acquisition/segmentation/density_valley.h"
 #include "acquisition/segmentation/label_regions.h"
 #include "acquisition/segmentation/segmentation.h"
-#include "assets/hash_random.h"
+#include "assets/synth/hash_random.h"
 #include "tests/support/expect_error.h"
 #include "tests/support/temp_folder.h"
 

@@ -3,9 +3,9 @@
 
 #include <gtest/gtest.h>
 
-#include "acquisition/acquire.h"
-#include "acquisition/normals/lambertian_residual.h"
-#include "assets/synth_capture.h"
+#include "acquisition/chain/acquire.h"
+#include "acquisition/checks/lambertian_residual.h"
+#include "assets/synth/synth_capture.h"
 #include "tests/support/data_folder.h"
 #include "tests/support/temp_folder.h"
 

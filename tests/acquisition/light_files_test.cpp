@@ -1,4 +1,4 @@
-#include "acquisition/lights/light_files.h"
+#include "engine/lights/light_files.h"
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>

@@ -7,7 +7,7 @@
 #include "acquisition/brdf/lobe_fit.h"
 #include "acquisition/brdf/low_rank_fit.h"
 #include "acquisition/brdf/model_ladder.h"
-#include "engine/scene/brdf_tabulation.h"
+#include "engine/brdf/brdf_tabulation.h"
 
 namespace nacre {
 namespace {

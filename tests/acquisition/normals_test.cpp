@@ -3,10 +3,11 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
+#include "acquisition/exemplar/normal_method.h"
 #include "acquisition/normals/lambertian_solver.h"
 #include "acquisition/normals/normals.h"
-#include "engine/scene/error.h"
-#include "engine/scene/measures.h"
+#include "engine/files/error.h"
+#include "engine/files/measures.h"
 
 namespace nacre {
 namespace {

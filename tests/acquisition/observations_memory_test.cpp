@@ -6,7 +6,7 @@
 #include <sys/resource.h>
 
 #include "acquisition/capture/observations.h"
-#include "engine/scene/error.h"
+#include "engine/files/error.h"
 #include "tests/support/temp_folder.h"
 #include "tests/support/write_capture.h"
 

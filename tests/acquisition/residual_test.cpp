@@ -11,7 +11,7 @@
 #include "acquisition/residual/residual_components.h"
 #include "acquisition/residual/residual_estimate.h"
 #include "engine/scene/reference.h"
-#include "engine/scene/residual_layer.h"
+#include "engine/surface/residual_layer.h"
 #include "tests/support/expect_error.h"
 #include "tests/support/residual_surface.h"
 

@@ -5,10 +5,10 @@
 
 #include <gtest/gtest.h>
 
-#include "acquisition/acquire.h"
+#include "acquisition/chain/acquire.h"
 #include "acquisition/segmentation/label_regions.h"
-#include "assets/synth_capture.h"
-#include "engine/scene/measures.h"
+#include "assets/synth/synth_capture.h"
+#include "engine/files/measures.h"
 #include "engine/scene/reference.h"
 #include "tests/support/expect_error.h"
 #include "tests/support/temp_folder.h"

@@ -1,12 +1,12 @@
-#include "acquisition/normals/self_checks.h"
+#include "acquisition/checks/self_checks.h"
 
 #include <algorithm>
 
 #include <gtest/gtest.h>
 
 #include "acquisition/lights/sphere_agreement.h"
-#include "evaluation/degradations.h"
-#include "evaluation/normal_sweeps.h"
+#include "evaluation/stress/degradations.h"
+#include "evaluation/stress/normal_sweeps.h"
 
 namespace nacre {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "acquisition/brdf/shared_basis.h"
 #include "acquisition/brdf/shared_ladder.h"
-#include "engine/scene/brdf_tabulation.h"
+#include "engine/brdf/brdf_tabulation.h"
 
 namespace nacre {
 namespace {

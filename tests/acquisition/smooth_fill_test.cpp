@@ -8,7 +8,7 @@
 
 #include "acquisition/capture/capture.h"
 #include "acquisition/normals/smooth_fill.h"
-#include "engine/scene/measures.h"
+#include "engine/files/measures.h"
 #include "tests/support/expect_error.h"
 #include "tests/support/temp_folder.h"
 #include "tests/support/write_capture.h"
@@ -16,14 +16,14 @@
 namespace nacre {
 namespace {
 
-constexpr int kSize = 128;
+constexpr int kFillSize = 128;
 
 // 1 within `radius` (in radii of the sphere) of the middle.
 std::vector<uint8_t> discOf(double radius)
 {
     std::vector<uint8_t> disc;
-    for (int i = 0; i < kSize * kSize; ++i) {
-        const double x = (i % kSize + 0.5) / kSize * 2 - 1, y = (i / kSize + 0.5) / kSize * 2 - 1;
+    for (int i = 0; i < kFillSize * kFillSize; ++i) {
+        const double x = (i % kFillSize + 0.5) / kFillSize * 2 - 1, y = (i / kFillSize + 0.5) / kFillSize * 2 - 1;
         disc.push_back(std::hypot(x, y) < radius);
     }
     return disc;
@@ -31,7 +31,7 @@ std::vector<uint8_t> discOf(double radius)
 
 TEST(SmoothFill, AHoleInASphereComesBack)
 {
-    const NormalMap sphere = sphereNormalMap(kSize);
+    const NormalMap sphere = sphereNormalMap(kFillSize);
     NormalMap filled = sphere;
     const double radius = 0.3;
     const std::vector<uint8_t> hole = discOf(radius), object = discOf(1);
@@ -59,10 +59,10 @@ TEST(SmoothFill, AHoleInASphereComesBack)
 
 TEST(SmoothFill, WhatTouchesNoNormalStaysWithout)
 {
-    NormalMap map(kSize, kSize);
-    const std::vector<uint8_t> all(kSize * kSize, 1);
+    NormalMap map(kFillSize, kFillSize);
+    const std::vector<uint8_t> all(kFillSize * kFillSize, 1);
     EXPECT_EQ(fillSmoothly(map, all, all), 0u);
-    EXPECT_EQ(map.confidence[kSize], 0.0f);
+    EXPECT_EQ(map.confidence[kFillSize], 0.0f);
 }
 
 TEST(SmoothFill, MasksThatCannotBeMeantAreRefused)

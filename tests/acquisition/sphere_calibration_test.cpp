@@ -3,8 +3,8 @@
 #include "acquisition/lights/diffuse_sphere.h"
 #include "acquisition/lights/lights.h"
 #include "acquisition/lights/mirror_sphere.h"
-#include "engine/scene/error.h"
-#include "engine/scene/measures.h"
+#include "engine/files/error.h"
+#include "engine/files/measures.h"
 #include "tests/support/sphere_picture.h"
 
 namespace nacre {

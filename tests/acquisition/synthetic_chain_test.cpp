@@ -2,11 +2,11 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "acquisition/acquire.h"
 #include "acquisition/capture/matlab_normals.h"
-#include "acquisition/lights/light_files.h"
-#include "assets/synth_capture.h"
-#include "engine/scene/measures.h"
+#include "acquisition/chain/acquire.h"
+#include "assets/synth/synth_capture.h"
+#include "engine/files/measures.h"
+#include "engine/lights/light_files.h"
 #include "engine/scene/reference.h"
 #include "tests/support/temp_folder.h"
 

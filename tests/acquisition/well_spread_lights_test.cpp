@@ -6,8 +6,8 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "engine/scene/error.h"
-#include "engine/scene/measures.h"
+#include "engine/files/error.h"
+#include "engine/files/measures.h"
 #include "tests/support/expect_error.h"
 
 namespace nacre {

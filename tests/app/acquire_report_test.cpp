@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "engine/scene/whole_file.h"
+#include "engine/files/whole_file.h"
 #include "tests/support/small_capture.h"
 
 namespace nacre {

@@ -5,8 +5,8 @@
 #include <gtest/gtest.h>
 #include <webp/demux.h>
 
-#include "engine/scene/animation_file.h"
-#include "engine/scene/whole_file.h"
+#include "engine/files/animation_file.h"
+#include "engine/files/whole_file.h"
 #include "tests/gpu/scenes.h"
 #include "tests/support/expect_error.h"
 #include "tests/support/expect_one_line.h"

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "engine/scene/image.h"
+#include "engine/files/image.h"
 #include "tests/gpu/scenes.h"
 #include "tests/support/expect_one_line.h"
 #include "tests/support/run_nacre.h"

@@ -6,10 +6,10 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "engine/scene/brdf_tabulation.h"
-#include "engine/scene/image.h"
-#include "engine/scene/normal_map.h"
-#include "engine/scene/surface.h"
+#include "engine/brdf/brdf_tabulation.h"
+#include "engine/files/image.h"
+#include "engine/surface/normal_map.h"
+#include "engine/surface/surface.h"
 #include "tests/support/data_folder.h"
 #include "tests/support/run_nacre.h"
 

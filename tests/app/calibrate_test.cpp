@@ -3,10 +3,10 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "acquisition/lights/light_files.h"
-#include "engine/scene/error.h"
-#include "engine/scene/measures.h"
-#include "engine/scene/surface.h"
+#include "engine/files/error.h"
+#include "engine/files/measures.h"
+#include "engine/lights/light_files.h"
+#include "engine/surface/surface.h"
 #include "tests/support/run_nacre.h"
 
 namespace nacre {

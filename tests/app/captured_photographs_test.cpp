@@ -1,5 +1,5 @@
 // The photographs that a window shows beside a surface: verdicts on a whole picture and under the cursor are one.
-#include "app/captured_photographs.h"
+#include "app/materials/captured_photographs.h"
 
 #include <array>
 #include <atomic>

@@ -4,8 +4,8 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "engine/scene/image.h"
-#include "engine/scene/whole_file.h"
+#include "engine/files/image.h"
+#include "engine/files/whole_file.h"
 #include "tests/support/small_capture.h"
 
 namespace nacre {

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "engine/scene/image.h"
+#include "engine/files/image.h"
 #include "tests/support/run_nacre.h"
 
 namespace nacre {

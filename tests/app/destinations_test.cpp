@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "engine/scene/image.h"
+#include "engine/files/image.h"
 #include "tests/support/run_nacre.h"
 #include "tests/support/write_capture.h"
 

@@ -3,11 +3,11 @@
 
 #include <gtest/gtest.h>
 
-#include "engine/scene/error.h"
-#include "engine/scene/measures.h"
-#include "engine/scene/ptm_file.h"
-#include "engine/scene/rti_web.h"
-#include "engine/scene/whole_file.h"
+#include "engine/files/error.h"
+#include "engine/files/measures.h"
+#include "engine/files/whole_file.h"
+#include "engine/rti/ptm_file.h"
+#include "engine/rti/rti_web.h"
 #include "tests/gpu/scenes.h"
 #include "tests/support/expect_one_line.h"
 #include "tests/support/run_nacre.h"

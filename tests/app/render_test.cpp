@@ -4,7 +4,7 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "engine/scene/measures.h"
+#include "engine/files/measures.h"
 #include "engine/scene/reference.h"
 #include "tests/gpu/frame_match.h"
 #include "tests/gpu/scenes.h"

@@ -4,9 +4,9 @@
 
 #include <gtest/gtest.h>
 
-#include "engine/scene/code_difference.h"
-#include "engine/scene/surface.h"
-#include "engine/scene/whole_file.h"
+#include "engine/files/code_difference.h"
+#include "engine/files/whole_file.h"
+#include "engine/surface/surface.h"
 #include "shared/shading.h"
 #include "tests/support/run_nacre.h"
 

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "engine/scene/whole_file.h"
+#include "engine/files/whole_file.h"
 #include "tests/support/run_nacre.h"
 
 namespace nacre {

@@ -5,9 +5,9 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "engine/scene/measures.h"
+#include "engine/files/measures.h"
 #include "engine/scene/reference.h"
-#include "engine/scene/surface.h"
+#include "engine/surface/surface.h"
 #include "tests/gpu/frame_match.h"
 #include "tests/gpu/scenes.h"
 #include "tests/support/data_folder.h"

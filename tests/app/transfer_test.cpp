@@ -4,12 +4,12 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "engine/scene/brdf_comparison.h"
-#include "engine/scene/brdf_tabulation.h"
-#include "engine/scene/material_specification.h"
-#include "engine/scene/merl_file.h"
-#include "engine/scene/surface.h"
-#include "engine/scene/whole_file.h"
+#include "engine/brdf/brdf_comparison.h"
+#include "engine/brdf/brdf_tabulation.h"
+#include "engine/files/whole_file.h"
+#include "engine/materials/material_specification.h"
+#include "engine/materials/merl_file.h"
+#include "engine/surface/surface.h"
 #include "tests/support/expect_one_line.h"
 #include "tests/support/run_nacre.h"
 

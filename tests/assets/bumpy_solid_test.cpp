@@ -1,11 +1,11 @@
-#include "assets/bumpy_solid.h"
+#include "assets/synth/bumpy_solid.h"
 
 #include <cmath>
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "assets/orthographic_view.h"
+#include "assets/synth/orthographic_view.h"
 
 namespace nacre {
 namespace {

@@ -1,10 +1,10 @@
-#include "assets/calibration_spheres.h"
+#include "assets/synth/calibration_spheres.h"
 
 #include <cmath>
 
 #include <gtest/gtest.h>
 
-#include "engine/scene/measures.h"
+#include "engine/files/measures.h"
 #include "shared/glsl.h"
 
 namespace nacre {

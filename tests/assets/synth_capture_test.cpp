@@ -1,13 +1,13 @@
-#include "assets/synth_capture.h"
+#include "assets/synth/synth_capture.h"
 
 #include <map>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "engine/scene/error.h"
-#include "engine/scene/normal_map.h"
-#include "engine/scene/whole_file.h"
+#include "engine/files/error.h"
+#include "engine/files/whole_file.h"
+#include "engine/surface/normal_map.h"
 #include "shared/glsl.h"
 #include "tests/support/expect_error.h"
 #include "tests/support/temp_folder.h"

@@ -1,13 +1,13 @@
-#include "assets/synth_scene.h"
+#include "assets/synth/synth_scene.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include <gtest/gtest.h>
 
-#include "assets/hash_random.h"
-#include "engine/scene/error.h"
-#include "engine/scene/measures.h"
+#include "assets/synth/hash_random.h"
+#include "engine/files/error.h"
+#include "engine/files/measures.h"
 #include "shared/glsl.h"
 #include "tests/support/expect_error.h"
 

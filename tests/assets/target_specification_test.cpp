@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "assets/targets.h"
-#include "engine/scene/error.h"
+#include "engine/files/error.h"
 
 namespace nacre {
 namespace {

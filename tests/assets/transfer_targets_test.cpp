@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "assets/targets.h"
-#include "engine/scene/measures.h"
+#include "engine/files/measures.h"
 
 namespace nacre {
 namespace {

@@ -3,13 +3,13 @@
 
 #include "acquisition/brdf/albedo_factor.h"
 #include "acquisition/brdf/bake.h"
+#include "acquisition/chain/prepared_normals.h"
 #include "acquisition/normals/pixel_sample.h"
-#include "acquisition/prepared_normals.h"
-#include "assets/synth_lights.h"
-#include "assets/synth_scene.h"
-#include "evaluation/degradations.h"
-#include "evaluation/photographed_object.h"
-#include "evaluation/transfer_error.h"
+#include "assets/synth/synth_lights.h"
+#include "assets/synth/synth_scene.h"
+#include "evaluation/held_out/photographed_object.h"
+#include "evaluation/held_out/transfer_error.h"
+#include "evaluation/stress/degradations.h"
 #include "tests/support/data_folder.h"
 
 namespace nacre {

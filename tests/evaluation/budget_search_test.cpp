@@ -1,13 +1,13 @@
-#include "evaluation/budget_search.h"
+#include "evaluation/charts/budget_search.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include <gtest/gtest.h>
 
-#include "assets/synth_capture.h"
-#include "engine/scene/error.h"
-#include "evaluation/html_page.h"
+#include "assets/synth/synth_capture.h"
+#include "engine/files/error.h"
+#include "evaluation/charts/html_page.h"
 #include "tests/support/temp_folder.h"
 
 namespace nacre {

@@ -1,4 +1,4 @@
-#include "evaluation/chart_report.h"
+#include "evaluation/charts/chart_report.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,9 +6,9 @@
 
 #include <gtest/gtest.h>
 
-#include "evaluation/chart_default.h"
-#include "evaluation/chart_labels.h"
-#include "evaluation/chart_tables.h"
+#include "evaluation/charts/chart_default.h"
+#include "evaluation/charts/chart_labels.h"
+#include "evaluation/charts/chart_tables.h"
 
 namespace nacre {
 namespace {
@@ -25,7 +25,7 @@ NormalRow normalRow(NormalMethod method, double seconds, double degrees)
     return row;
 }
 
-ChartRows exampleRows()
+ChartRows chartRows()
 {
     ChartRows rows;
     rows.normals = {normalRow(NormalMethod::leastSquares, 0.1, 4), normalRow(NormalMethod::consensus, 1, 2),
@@ -73,10 +73,10 @@ size_t countOf(const std::string& text, const std::string& part)
 
 TEST(ChartSvg, IsWellFormedAndDrawsFrontDominatedAndDefault)
 {
-    for (const NamedChart& chart : chartsOf(exampleRows())) {
+    for (const NamedChart& chart : chartsOf(chartRows())) {
         expectWellFormed(svgOf(chart.chart));
     }
-    const std::string svg = svgOf(chartsOf(exampleRows()).front().chart);
+    const std::string svg = svgOf(chartsOf(chartRows()).front().chart);
     EXPECT_NE(svg.find("a, &quot;b&quot; &lt;c&gt;"), std::string::npos);
     // Beside one of each in the legend: three of four on the front, ransac dominated by consensus, auto the default.
     EXPECT_EQ(countOf(svg, "fill=\"#0072b2\""), 4u);
@@ -180,7 +180,7 @@ size_t fieldsOf(const std::string& line)
 
 TEST(ChartCsv, HasALineASettingWithEveryField)
 {
-    ChartRows rows = exampleRows();
+    ChartRows rows = chartRows();
     rows.normals[2].refusal = "too few, alas";
     for (const auto& [csv, count] :
          {std::pair(csvOf(rows.normals), rows.normals.size()), std::pair(csvOf(rows.brdf), rows.brdf.size())}) {
@@ -213,7 +213,7 @@ TEST(ChartSettings, AreAllCombinationsAndOneIsTheDefault)
 
 TEST(ChartReport, StandsAloneAndHasEverySetting)
 {
-    const ChartRows rows = exampleRows();
+    const ChartRows rows = chartRows();
     const std::string html = reportOf(rows, {"1 < 2"});
     EXPECT_EQ(countOf(html, "<svg "), 3u);
     EXPECT_EQ(countOf(html, "<tr class="), rows.normals.size() + rows.brdf.size());

@@ -1,4 +1,4 @@
-#include "evaluation/degradations.h"
+#include "evaluation/stress/degradations.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,8 +6,8 @@
 
 #include <gtest/gtest.h>
 
-#include "engine/scene/measures.h"
-#include "evaluation/light_layouts.h"
+#include "engine/files/measures.h"
+#include "evaluation/stress/light_layouts.h"
 
 namespace nacre {
 namespace {

@@ -1,4 +1,4 @@
-#include "evaluation/held_out_measures.h"
+#include "evaluation/held_out/held_out_measures.h"
 
 #include <cmath>
 

@@ -1,4 +1,4 @@
-#include "evaluation/light_layouts.h"
+#include "evaluation/stress/light_layouts.h"
 
 #include <cmath>
 
@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "acquisition/lights/lights.h"
-#include "engine/scene/measures.h"
+#include "engine/files/measures.h"
 
 namespace nacre {
 namespace {

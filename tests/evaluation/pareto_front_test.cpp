@@ -1,4 +1,4 @@
-#include "evaluation/pareto_front.h"
+#include "evaluation/charts/pareto_front.h"
 
 #include <cmath>
 #include <cstdint>

@@ -1,10 +1,10 @@
-#include "evaluation/rendering_chart.h"
+#include "evaluation/charts/rendering_chart.h"
 
 #include <algorithm>
 
 #include <gtest/gtest.h>
 
-#include "evaluation/chart_default.h"
+#include "evaluation/charts/chart_default.h"
 
 namespace nacre {
 namespace {

@@ -1,12 +1,12 @@
-#include "evaluation/stress.h"
+#include "evaluation/stress/stress.h"
 
 #include <algorithm>
 
 #include <gtest/gtest.h>
 
-#include "evaluation/light_layouts.h"
-#include "evaluation/stress_chart.h"
-#include "evaluation/stress_tables.h"
+#include "evaluation/stress/light_layouts.h"
+#include "evaluation/stress/stress_chart.h"
+#include "evaluation/stress/stress_tables.h"
 #include "tests/support/expect_error.h"
 
 namespace nacre {

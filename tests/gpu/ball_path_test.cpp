@@ -4,11 +4,11 @@
 
 #include <glm/geometric.hpp>
 
+#include "engine/brdf/brdf_tabulation.h"
+#include "engine/files/code_difference.h"
+#include "engine/files/error.h"
+#include "engine/files/measures.h"
 #include "engine/gpu/renderer.h"
-#include "engine/scene/brdf_tabulation.h"
-#include "engine/scene/code_difference.h"
-#include "engine/scene/error.h"
-#include "engine/scene/measures.h"
 #include "engine/scene/reference.h"
 #include "tests/gpu/gpu_test.h"
 #include "tests/gpu/scenes.h"

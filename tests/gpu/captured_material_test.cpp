@@ -1,8 +1,8 @@
 // A material as a camera found it, by both paths.
 #include <cstdio>
 
+#include "engine/files/measures.h"
 #include "engine/gpu/renderer.h"
-#include "engine/scene/measures.h"
 #include "tests/gpu/gpu_test.h"
 #include "tests/gpu/scenes.h"
 #include "tests/support/data_folder.h"

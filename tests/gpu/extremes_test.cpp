@@ -3,10 +3,10 @@
 
 #include <glm/geometric.hpp>
 
+#include "engine/brdf/brdf_tabulation.h"
+#include "engine/files/measures.h"
 #include "engine/gpu/check.h"
 #include "engine/gpu/renderer.h"
-#include "engine/scene/brdf_tabulation.h"
-#include "engine/scene/measures.h"
 #include "engine/scene/reference.h"
 #include "tests/gpu/frame_match.h"
 #include "tests/gpu/gpu_test.h"

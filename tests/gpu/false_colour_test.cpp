@@ -3,8 +3,8 @@
 
 #include <glm/geometric.hpp>
 
+#include "engine/files/measures.h"
 #include "engine/gpu/renderer.h"
-#include "engine/scene/measures.h"
 #include "tests/gpu/gpu_test.h"
 #include "tests/gpu/scenes.h"
 

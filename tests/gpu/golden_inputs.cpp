@@ -6,14 +6,14 @@
 
 #include <glm/geometric.hpp>
 
-#include "assets/bumpy_solid.h"
-#include "assets/material_patches.h"
-#include "assets/orthographic_view.h"
-#include "assets/statue_head.h"
-#include "engine/scene/brdf_tabulation.h"
-#include "engine/scene/image.h"
-#include "engine/scene/surface.h"
-#include "engine/scene/whole_file.h"
+#include "assets/head/statue_head.h"
+#include "assets/synth/bumpy_solid.h"
+#include "assets/synth/material_patches.h"
+#include "assets/synth/orthographic_view.h"
+#include "engine/brdf/brdf_tabulation.h"
+#include "engine/files/image.h"
+#include "engine/files/whole_file.h"
+#include "engine/surface/surface.h"
 #include "tests/support/residual_surface.h"
 #include "tests/support/temp_folder.h"
 

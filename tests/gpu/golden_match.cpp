@@ -7,8 +7,8 @@
 
 #include <fmt/format.h>
 
-#include "engine/scene/structural_similarity.h"
-#include "engine/scene/whole_file.h"
+#include "engine/files/structural_similarity.h"
+#include "engine/files/whole_file.h"
 
 namespace nacre::test {
 namespace fs = std::filesystem;

@@ -4,8 +4,8 @@
 
 #include <gtest/gtest.h>
 
-#include "engine/scene/code_difference.h"
-#include "engine/scene/image.h"
+#include "engine/files/code_difference.h"
+#include "engine/files/image.h"
 
 namespace nacre::test {
 

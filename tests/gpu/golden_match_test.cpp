@@ -1,5 +1,5 @@
 // What keeps goldens honest: refusals, evidence, and that nothing is blessed in silence.
-#include "engine/scene/whole_file.h"
+#include "engine/files/whole_file.h"
 #include "tests/gpu/golden_match.h"
 #include "tests/support/temp_folder.h"
 

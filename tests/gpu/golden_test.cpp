@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cstdio>
 
-#include "app/render_output.h"
-#include "app/render_scene.h"
+#include "app/materials/render_output.h"
+#include "engine/loading/render_scene.h"
 #include "engine/scene/ball.h"
 #include "engine/scene/reference.h"
 #include "tests/gpu/golden_inputs.h"

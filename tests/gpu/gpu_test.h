@@ -5,8 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include "engine/files/error.h"
 #include "engine/gpu/context.h"
-#include "engine/scene/error.h"
 
 namespace nacre::test {
 

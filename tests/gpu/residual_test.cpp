@@ -1,8 +1,8 @@
 // A residual layer on the device: the same as its twin on the CPU in both paths, in bands, off and alone.
 #include <glm/geometric.hpp>
 
+#include "engine/files/code_difference.h"
 #include "engine/gpu/renderer.h"
-#include "engine/scene/code_difference.h"
 #include "engine/scene/reference.h"
 #include "tests/gpu/frame_match.h"
 #include "tests/gpu/gpu_test.h"

@@ -1,5 +1,5 @@
 #pragma once
-#include "engine/scene/brdf_models.h"
+#include "engine/brdf/brdf_models.h"
 #include "engine/scene/scene.h"
 
 namespace nacre::test {

@@ -4,8 +4,8 @@
 
 #include <glm/geometric.hpp>
 
+#include "engine/files/error.h"
 #include "engine/gpu/renderer.h"
-#include "engine/scene/error.h"
 #include "engine/scene/reference.h"
 #include "tests/gpu/frame_match.h"
 #include "tests/gpu/gpu_test.h"

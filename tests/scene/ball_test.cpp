@@ -3,8 +3,8 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
+#include "engine/brdf/brdf_models.h"
 #include "engine/scene/ball.h"
-#include "engine/scene/brdf_models.h"
 #include "engine/scene/reference.h"
 
 namespace nacre {

@@ -1,11 +1,11 @@
-#include "engine/scene/brdf_audit.h"
+#include "engine/brdf/brdf_audit.h"
 
 #include <cmath>
 #include <limits>
 
 #include <gtest/gtest.h>
 
-#include "engine/scene/brdf_tabulation.h"
+#include "engine/brdf/brdf_tabulation.h"
 #include "tests/support/models_as_tables.h"
 
 namespace nacre {

@@ -1,4 +1,4 @@
-#include "engine/scene/brdf_models.h"
+#include "engine/brdf/brdf_models.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,8 +6,8 @@
 
 #include <gtest/gtest.h>
 
-#include "engine/scene/error.h"
-#include "engine/scene/material_specification.h"
+#include "engine/files/error.h"
+#include "engine/materials/material_specification.h"
 #include "shared/brdf_coords.h"
 #include "tests/support/data_folder.h"
 

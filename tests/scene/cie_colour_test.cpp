@@ -1,4 +1,4 @@
-#include "engine/scene/cie_colour.h"
+#include "engine/materials/cie_colour.h"
 
 #include <algorithm>
 #include <vector>

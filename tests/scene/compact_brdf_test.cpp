@@ -4,10 +4,10 @@
 
 #include <glm/geometric.hpp>
 
-#include "engine/scene/brdf_tabulation.h"
-#include "engine/scene/error.h"
-#include "engine/scene/surface.h"
-#include "engine/scene/whole_file.h"
+#include "engine/brdf/brdf_tabulation.h"
+#include "engine/files/error.h"
+#include "engine/files/whole_file.h"
+#include "engine/surface/surface.h"
 #include "tests/support/temp_folder.h"
 
 namespace nacre {

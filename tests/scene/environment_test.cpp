@@ -4,8 +4,8 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "engine/scene/environment.h"
-#include "engine/scene/light_motion.h"
+#include "engine/lights/environment.h"
+#include "engine/lights/light_motion.h"
 #include "shared/glsl.h"
 #include "tests/support/expect_error.h"
 #include "tests/support/temp_folder.h"

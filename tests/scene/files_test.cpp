@@ -8,8 +8,8 @@
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 
-#include "engine/scene/surface.h"
-#include "engine/scene/whole_file.h"
+#include "engine/files/whole_file.h"
+#include "engine/surface/surface.h"
 #include "tests/support/expect_error.h"
 #include "tests/support/temp_folder.h"
 

@@ -6,7 +6,7 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "engine/scene/horizon.h"
+#include "engine/surface/horizon.h"
 
 namespace nacre {
 namespace {

@@ -1,4 +1,4 @@
-#include "engine/scene/ktx2_file.h"
+#include "engine/materials/ktx2_file.h"
 
 #include <cstring>
 #include <fstream>
@@ -6,7 +6,7 @@
 #include <glm/gtc/packing.hpp>
 #include <gtest/gtest.h>
 
-#include "engine/scene/brdf_tabulation.h"
+#include "engine/brdf/brdf_tabulation.h"
 #include "tests/support/temp_folder.h"
 
 namespace nacre {

@@ -5,7 +5,7 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "engine/scene/light_rigs.h"
+#include "engine/lights/light_rigs.h"
 #include "shared/brdf_coords.h"
 #include "tests/support/expect_error.h"
 

@@ -1,8 +1,8 @@
-#include "engine/scene/material_specification.h"
+#include "engine/materials/material_specification.h"
 
 #include <gtest/gtest.h>
 
-#include "engine/scene/error.h"
+#include "engine/files/error.h"
 #include "tests/support/data_folder.h"
 
 namespace nacre {

@@ -1,4 +1,4 @@
-#include "engine/scene/merl_file.h"
+#include "engine/materials/merl_file.h"
 
 #include <cstring>
 #include <fstream>
@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "engine/scene/brdf_comparison.h"
+#include "engine/brdf/brdf_comparison.h"
 #include "tests/support/expect_error.h"
 #include "tests/support/models_as_tables.h"
 #include "tests/support/temp_folder.h"

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/scene/reference.h"
-#include "engine/scene/surface.h"
+#include "engine/surface/surface.h"
 #include "tests/support/expect_error.h"
 #include "tests/support/residual_surface.h"
 #include "tests/support/temp_folder.h"

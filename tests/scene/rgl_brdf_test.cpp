@@ -1,4 +1,4 @@
-#include "engine/scene/rgl_brdf.h"
+#include "engine/brdf/rgl_brdf.h"
 
 #include <algorithm>
 #include <cstring>
@@ -7,8 +7,8 @@
 
 #include <gtest/gtest.h>
 
-#include "engine/scene/brdf_comparison.h"
-#include "engine/scene/brdf_tabulation.h"
+#include "engine/brdf/brdf_comparison.h"
+#include "engine/brdf/brdf_tabulation.h"
 #include "tests/support/data_folder.h"
 #include "tests/support/expect_error.h"
 #include "tests/support/models_as_tables.h"

@@ -5,9 +5,9 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "engine/scene/ptm_file.h"
-#include "engine/scene/rti_web.h"
-#include "engine/scene/whole_file.h"
+#include "engine/files/whole_file.h"
+#include "engine/rti/ptm_file.h"
+#include "engine/rti/rti_web.h"
 #include "tests/support/expect_error.h"
 #include "tests/support/temp_folder.h"
 

@@ -4,9 +4,9 @@
 
 #include <gtest/gtest.h>
 
-#include "assets/hash_random.h"
-#include "engine/scene/code_difference.h"
-#include "engine/scene/structural_similarity.h"
+#include "assets/synth/hash_random.h"
+#include "engine/files/code_difference.h"
+#include "engine/files/structural_similarity.h"
 
 namespace nacre {
 namespace {

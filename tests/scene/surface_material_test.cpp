@@ -1,8 +1,8 @@
 // One way of naming the materials of a surface.
 #include <gtest/gtest.h>
 
-#include "engine/scene/material_specification.h"
-#include "engine/scene/surface_material.h"
+#include "engine/materials/material_specification.h"
+#include "engine/surface/surface_material.h"
 #include "tests/support/expect_error.h"
 #include "tests/support/temp_folder.h"
 

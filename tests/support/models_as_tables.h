@@ -1,7 +1,7 @@
 #pragma once
 #include <cmath>
 
-#include "engine/scene/brdf_models.h"
+#include "engine/brdf/brdf_models.h"
 
 namespace nacre {
 

@@ -4,9 +4,9 @@
 
 #include <glm/geometric.hpp>
 
-#include "engine/scene/brdf_models.h"
-#include "engine/scene/brdf_tabulation.h"
-#include "engine/scene/surface.h"
+#include "engine/brdf/brdf_models.h"
+#include "engine/brdf/brdf_tabulation.h"
+#include "engine/surface/surface.h"
 
 namespace nacre {
 

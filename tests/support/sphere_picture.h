@@ -5,7 +5,7 @@
 #include <glm/geometric.hpp>
 
 #include "acquisition/lights/sphere_outline.h"
-#include "engine/scene/image.h"
+#include "engine/files/image.h"
 
 namespace nacre {
 

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/scene/image.h"
+#include "engine/files/image.h"
 
 namespace nacre {
 

@@ -5,7 +5,7 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "engine/scene/measures.h"
+#include "engine/files/measures.h"
 #include "engine/target/height_map.h"
 #include "engine/target/normal_map_source.h"
 #include "tests/support/expect_error.h"

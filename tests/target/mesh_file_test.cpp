@@ -5,7 +5,7 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "engine/scene/measures.h"
+#include "engine/files/measures.h"
 #include "engine/target/mesh_file.h"
 #include "tests/support/expect_error.h"
 #include "tests/support/temp_folder.h"

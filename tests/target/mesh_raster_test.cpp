@@ -5,7 +5,7 @@
 #include <glm/gtc/packing.hpp>
 #include <gtest/gtest.h>
 
-#include "engine/scene/measures.h"
+#include "engine/files/measures.h"
 #include "engine/target/mesh_file.h"
 #include "engine/target/mesh_raster.h"
 #include "tests/gpu/gpu_test.h"
@@ -32,18 +32,18 @@ protected:
     TempFolder folder_;
 };
 
-constexpr int kSize = 256;
-// Of the unit sphere in a picture of kSize pixels with 4 % margins.
-constexpr double kRadius = 0.46 * kSize;
+constexpr int kRasterSize = 256;
+// Of the unit sphere in a picture of kRasterSize pixels with 4 % margins.
+constexpr double kRadius = 0.46 * kRasterSize;
 
 // Largest angle to the true sphere's normals, and largest difference of height, where the disc's radius is below 0.95.
 // Beyond, a pixel holds more than a degree of the sphere.
 std::pair<double, double> sphereErrors(const Surface& surface)
 {
     double degrees = 0, pixels = 0;
-    for (int y = 0; y < kSize; ++y) {
-        for (int x = 0; x < kSize; ++x) {
-            const glm::dvec2 disc((x + 0.5 - kSize / 2) / kRadius, (kSize / 2 - y - 0.5) / kRadius);
+    for (int y = 0; y < kRasterSize; ++y) {
+        for (int x = 0; x < kRasterSize; ++x) {
+            const glm::dvec2 disc((x + 0.5 - kRasterSize / 2) / kRadius, (kRasterSize / 2 - y - 0.5) / kRadius);
             if (glm::length(disc) < 0.95) {
                 const size_t i = surface.normals.index(x, y);
                 const double z = std::sqrt(1 - glm::dot(disc, disc));
@@ -64,7 +64,7 @@ TEST_F(MeshRasterTest, ASpheresNormalsAreTheSpheres)
             SCOPED_TRACE(testing::Message() << "normals " << withNormals << ", reversed " << reversed);
             const Mesh mesh = loadMesh(write("ball.obj", sphereObj(200, withNormals, reversed)));
             EXPECT_EQ(mesh.normalsWereMade, !withNormals);
-            const auto [degrees, pixels] = sphereErrors(view(mesh, {.width = kSize, .height = kSize}));
+            const auto [degrees, pixels] = sphereErrors(view(mesh, {.width = kRasterSize, .height = kRasterSize}));
             EXPECT_LT(degrees, 0.2);
             EXPECT_LT(pixels, 0.05) << "of height";
             RecordProperty("degrees", std::to_string(degrees));
@@ -164,7 +164,7 @@ TEST_F(MeshRasterTest, ManyUploadsAreOnePicture)
 {
     const Mesh mesh = loadMesh(write("ball.obj", sphereObj(300, true)));
     ASSERT_GT(mesh.triangleCount(), size_t{1} << 17);
-    const auto [degrees, pixels] = sphereErrors(view(mesh, {.width = kSize, .height = kSize}));
+    const auto [degrees, pixels] = sphereErrors(view(mesh, {.width = kRasterSize, .height = kRasterSize}));
     EXPECT_LT(degrees, 0.2);
     EXPECT_LT(pixels, 0.05);
 }

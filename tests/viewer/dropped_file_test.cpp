@@ -2,10 +2,10 @@
 
 #include <gtest/gtest.h>
 
-#include "engine/scene/brdf_tabulation.h"
-#include "engine/scene/normal_map.h"
-#include "engine/scene/surface.h"
-#include "engine/scene/whole_file.h"
+#include "engine/brdf/brdf_tabulation.h"
+#include "engine/files/whole_file.h"
+#include "engine/surface/normal_map.h"
+#include "engine/surface/surface.h"
 #include "tests/support/temp_folder.h"
 
 namespace nacre {

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "engine/scene/whole_file.h"
+#include "engine/files/whole_file.h"
 #include "engine/viewer/choices.h"
 #include "tests/support/expect_error.h"
 #include "tests/support/temp_folder.h"

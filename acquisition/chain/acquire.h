@@ -1,0 +1,33 @@
+#pragma once
+#include "acquisition/brdf/interpolation_choice.h"
+#include "acquisition/brdf/shared_ladder.h"
+#include "acquisition/chain/acquire_options.h"
+#include "acquisition/chain/normal_estimation.h"
+#include "acquisition/residual/residual_report.h"
+#include "acquisition/segmentation/segmentation.h"
+#include "engine/surface/surface.h"
+
+namespace nacre {
+
+// How a material's table came about.
+struct MaterialFit {
+    InterpolationChoice interpolation; // judged where the choice was automatic
+    ModelLadder ladder;                // empty where the full table was asked for
+};
+
+struct Acquisition {
+    Surface surface;
+    NormalEstimate estimate; // its normal map has moved into the surface
+    Segmentation segmentation;
+    SampleCounts samples;          // of all materials' inner pixels
+    std::vector<MaterialFit> fits; // one a material
+    SharedLadder shared;           // of several materials, where a smaller model was asked for
+    ResidualReport residual;
+};
+
+// Photographs -> lights -> normals -> materials -> samples -> BRDF tables -> albedo factors -> residual layer: the
+// whole chain. A capture that fits into options.byteBudget is read once, a larger one once more for each of its later
+// stages.
+Acquisition acquire(const Capture& capture, const AcquireOptions& options, const Progress& progress);
+
+} // namespace nacre

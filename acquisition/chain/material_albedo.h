@@ -1,0 +1,21 @@
+#pragma once
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "acquisition/brdf/albedo_factor.h"
+#include "acquisition/capture/capture.h"
+#include "engine/brdf/brdf_table.h"
+
+namespace nacre {
+
+// refitAlbedo of albedo_factor.h with every pixel's own material; labels are indices into `tables`.
+void refitAlbedo(const Observations& block, const NormalMap& normals, const std::vector<Light>& lights,
+                 std::span<const uint8_t> labels, std::span<BrdfTable* const> tables, int threads, Image& albedo);
+
+// Smooths factors in where the capture marks it, and makes their mean 1 over each material's pixels: no material's
+// factors reach another's. The tables take what was divided out; it is answered as well.
+std::vector<glm::vec3> finishAlbedo(const Capture& capture, std::span<const uint8_t> labels,
+                                    std::span<BrdfTable* const> tables, Image& albedo);
+
+} // namespace nacre

@@ -1,0 +1,26 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include <glm/vec2.hpp>
+
+#include "engine/surface/normal_map.h"
+
+namespace nacre {
+
+// Whether normals are those of a height, which lights that all err alike undo: dp/dy = dq/dx, p = n.x/n.z, q = n.y/n.z.
+struct HeightConsistency {
+    size_t places = 0; // pixels with neighbours on all sides
+    // Mean |dp/dy - dq/dx| over the same with y turned around: well below 1, above it where y is upside down.
+    double flippedRatio = 0;
+    // How far all normals have to be turned about x and y to be those of a height. A height tilted as a whole stays
+    // one; what tells the turn is its other half, n.z growing with n.x and n.y.
+    glm::dvec2 turnDegrees{0};
+    double turnedRatio = 1; // of mean |dp/dy - dq/dx|, turned so, over as it is
+};
+HeightConsistency heightConsistencyOf(const NormalMap& map);
+
+// "warning: ..." where the lights' y must be upside down, or all lights turned.
+std::vector<std::string> heightWarnings(const NormalMap& map);
+
+} // namespace nacre

@@ -1,0 +1,209 @@
+#include "acquisition/checks/self_checks.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Dense>
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
+
+#include "acquisition/checks/light_misfit.h"
+#include "acquisition/checks/matte_scatter.h"
+#include "acquisition/checks/stability.h"
+#include "acquisition/checks/what_if.h"
+#include "engine/files/measures.h"
+
+namespace nacre {
+
+namespace {
+
+constexpr size_t kMostPixels = 400;
+constexpr size_t kCheckTriples = 100; // of lights: medians over pixels do not need each pixel's best one
+constexpr size_t kFewestCheckedPixels = 50;
+constexpr size_t kFewestCheckedLights = 5; // fewer are warned of as such, and explain anything
+
+constexpr double kLargestMisfit = 2.5;       // degrees; spheres are read to 1 or 2
+constexpr double kLargestInstability = 15;   // degrees; a dozen photographs of gloss have 10
+constexpr double kLargestScatter = 0.02;     // a third above the worst of the photographs that are known to be good
+constexpr double kLargestDifference = 3;     // degrees in the mean: two methods cannot both be right
+constexpr double kLargestClipped = 0.1;      // of the lit observations
+constexpr double kLargestShadowed = 0.2;     // of the observations that face their light
+constexpr double kLargestUnexplained = 0.09; // of the brightness; good photographs have 0.06
+constexpr float kFacing = 0.2f;              // n.l
+
+Observations thinned(const Observations& sample)
+{
+    const size_t n = sample.lightCount, step = sample.pixels.size() / kMostPixels + 1;
+    Observations few;
+    few.lightCount = n;
+    for (size_t p = 0; p < sample.pixels.size(); p += step) {
+        const auto radiance = sample.radianceOf(p);
+        const auto saturated = sample.saturatedOf(p);
+        few.pixels.push_back(sample.pixels[p]);
+        few.radiance.insert(few.radiance.end(), radiance.begin(), radiance.end());
+        few.saturated.insert(few.saturated.end(), saturated.begin(), saturated.end());
+    }
+    return few;
+}
+
+std::string describe(const CaptureDefect& defect, double scatter)
+{
+    const std::string gain = fmt::format("Lambert's law then misses matte parts by {:.1f} instead of {:.1f} %",
+                                         100 * defect.scatter, 100 * scatter);
+    switch (defect.kind) {
+    case CaptureDefect::Kind::encoded:
+        return fmt::format("warning: the photographs are not linear (raised to the power {:.2g}, {}): a transfer curve "
+                           "is left in them; give --transfer srgb, or linear files",
+                           defect.size, gain);
+    case CaptureDefect::Kind::decoded:
+        return fmt::format("warning: the photographs are not linear (raised to the power {:.2g}, {}): a transfer curve "
+                           "was taken from them that they did not have; give --transfer linear",
+                           defect.size, gain);
+    case CaptureDefect::Kind::nearLights:
+        break;
+    }
+    return fmt::format("warning: the lights are not distant (at {:.2g} widths of the object, {}); move them away, or "
+                       "photograph less of the object",
+                       defect.size, gain);
+}
+
+// Shares of the observations that face their light.
+struct Shares {
+    double clipped = 0, shadowed = 0;
+};
+
+Shares sharesOf(const CheckedSample& sample)
+{
+    size_t facing = 0, clipped = 0, shadowed = 0;
+    const size_t n = sample.lights.size();
+    for (size_t p = 0; p < sample.seen.pixels.size(); ++p) {
+        for (size_t i = 0; i < n; ++i) {
+            if (glm::dot(sample.consensus.pixels[p].normal, sample.lights[i].direction) > kFacing) {
+                ++facing;
+                clipped += sample.seen.saturatedOf(p)[i] != 0;
+                shadowed += sample.consensus.verdicts[p * n + i] == Verdict::shadow;
+            }
+        }
+    }
+    const double all = static_cast<double>(std::max<size_t>(1, facing));
+    return {static_cast<double>(clipped) / all, static_cast<double>(shadowed) / all};
+}
+
+void warnOfShares(const Shares& shares, std::vector<std::string>& warnings)
+{
+    if (shares.clipped > kLargestClipped) {
+        warnings.push_back(fmt::format("warning: {:.0f} % of what the lights reach is clipped; expose shorter, or take "
+                                       "brackets",
+                                       100 * shares.clipped));
+    }
+    if (shares.shadowed > kLargestShadowed) {
+        warnings.push_back(
+            fmt::format("warning: {:.0f} % of what faces a light is dark: cast shadows, or wrong lights; "
+                        "normals lean away from what is in the way",
+                        100 * shares.shadowed));
+    }
+}
+
+double meanDifference(const NormalBlock& a, const NormalBlock& b)
+{
+    double sum = 0, count = 0;
+    for (size_t p = 0; p < a.pixels.size(); ++p) {
+        if (a.pixels[p].confidence > 0 && b.pixels[p].confidence > 0) {
+            sum += degreesBetween(a.pixels[p].normal, b.pixels[p].normal);
+            ++count;
+        }
+    }
+    return count > 0 ? sum / count : 0;
+}
+
+// Of the matrix of directions L: trace (L^T L)^-1, by which residuals grow into errors of normals.
+double inverseGramTrace(const std::vector<Light>& lights)
+{
+    Eigen::Matrix3d gram = Eigen::Matrix3d::Zero();
+    for (const Light& light : lights) {
+        const Eigen::Vector3d l(light.direction.x, light.direction.y, light.direction.z);
+        gram += l * l.transpose();
+    }
+    return gram.inverse().trace();
+}
+
+// What a method's own model leaves of the brightness, in the median: the residual scatter that its confidences tell,
+// had each pixel all of the lights.
+double unexplainedShare(const NormalBlock& block, const std::vector<Light>& lights)
+{
+    const double spread = std::sqrt(inverseGramTrace(lights));
+    std::vector<float> shares;
+    for (const PixelNormal& pixel : block.pixels) {
+        const double confidence = std::max(pixel.confidence, 1e-3f);
+        shares.push_back(static_cast<float>(kHalfConfidence * std::sqrt(1 / confidence - 1) / spread));
+    }
+    return shares.empty() ? 0 : quantile(shares, 0.5);
+}
+
+} // namespace
+
+CheckedSample checkCapture(const Observations& sample, int width, const std::vector<Light>& lights,
+                           const NormalOptions& options, std::vector<std::string>& warnings)
+{
+    CheckedSample checked;
+    checked.seen = thinned(sample);
+    checked.lights = lights;
+    if (checked.seen.pixels.size() < kFewestCheckedPixels || lights.size() < kFewestCheckedLights) {
+        return checked;
+    }
+    NormalOptions quick = options;
+    quick.triples = std::min(options.triples, kCheckTriples);
+    checked.intensities = intensitiesOf(checked.seen, lights);
+    checked.consensus = makeConsensusEstimator(lights, quick)(checked.intensities);
+    checked.scatter = matteScatter(checked.intensities, checked.consensus, lights,
+                                   matteObservations(checked.intensities, checked.consensus, lights));
+    if (const auto defect = findDefect(checked.seen, width, lights, quick, checked.scatter)) {
+        warnings.push_back(describe(*defect, checked.scatter));
+    }
+    const double misfit = lightMisfitDegrees(checked.intensities, checked.consensus, lights);
+    if (misfit > kLargestMisfit) {
+        warnings.push_back(fmt::format("warning: the photographs contradict the directions of their lights by {:.1f} "
+                                       "degrees in the median; check their order, or calibrate them anew",
+                                       misfit));
+    }
+    checked.instability = instabilityDegrees(checked.intensities, lights, quick);
+    if (checked.instability > kLargestInstability) {
+        warnings.push_back(fmt::format("warning: normals move by {:.1f} degrees with the choice of photographs: noise, "
+                                       "wrong irradiances, shadows, or too few lights; take more, or better exposed "
+                                       "ones",
+                                       checked.instability));
+    }
+    warnOfShares(sharesOf(checked), warnings);
+    return checked;
+}
+
+std::vector<std::string> methodWarnings(const CheckedSample& sample, NormalMethod method,
+                                        const NormalEstimator& estimator)
+{
+    std::vector<std::string> warnings;
+    if (sample.consensus.pixels.empty()) {
+        return warnings;
+    }
+    const bool knowsGloss = method == NormalMethod::exemplar;
+    const NormalBlock own = estimator(sample.intensities);
+    const double difference = meanDifference(own, sample.consensus), unexplained = unexplainedShare(own, sample.lights);
+    if (!knowsGloss && sample.scatter > kLargestScatter) {
+        warnings.push_back(fmt::format("warning: even matte parts miss Lambert's law by {:.1f} %, on which {} rests: "
+                                       "gloss, noise or wrong lights; exemplar knows gloss",
+                                       100 * sample.scatter, nameOf(method)));
+    }
+    // What consensus itself is unsure of says nothing against another method.
+    if (!knowsGloss && difference > kLargestDifference + sample.instability) {
+        warnings.push_back(fmt::format("warning: normals by {} and by consensus are {:.1f} degrees apart in the mean: "
+                                       "gloss or shadows are taken for shading; consensus or exemplar are safer",
+                                       nameOf(method), difference));
+    }
+    if (knowsGloss && unexplained > kLargestUnexplained) {
+        warnings.push_back(fmt::format("warning: no reflectance explains the photographs to better than {:.0f} % of "
+                                       "their brightness: noise, wrong lights, or no one material",
+                                       100 * unexplained));
+    }
+    return warnings;
+}
+
+} // namespace nacre

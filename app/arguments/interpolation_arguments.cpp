@@ -1,0 +1,79 @@
+#include "app/arguments/interpolation_arguments.h"
+
+#include <algorithm>
+
+#include "engine/files/error.h"
+#include "engine/files/text_files.h"
+
+namespace nacre {
+
+void InterpolationArguments::addTo(CLI::App& command)
+{
+    command
+        .add_option("--interpolation", method,
+                    "Between samples: local-linear, or paper (mean of the nearest in raw angles)")
+        ->capture_default_str();
+    command
+        .add_option("--k", k,
+                    "Nearest samples that are used; auto finds k and the metric that predict held-out lights best")
+        ->option_text("N|auto")
+        ->capture_default_str();
+}
+
+InterpolationOptions InterpolationArguments::options(int threads) const
+{
+    InterpolationOptions options;
+    options.method = interpolationMethodFromName(method);
+    options.threads = threads;
+    options.automatic = k == "auto";
+    if (!options.automatic) {
+        if (k.empty() || k.size() > 6 || k.find_first_not_of("0123456789") != std::string::npos) {
+            throw Error("", "--k " + k + " is not understood", "a number of samples, or auto", Error::kUsage);
+        }
+        options.k = std::stoi(k);
+    }
+    return options;
+}
+
+void LadderArguments::addTo(CLI::App& command)
+{
+    command
+        .add_option("--tolerance", tolerance,
+                    "Keep the smallest model whose radiance is within so many dB (PSNR) of the interpolated samples, "
+                    "e.g. 45dB (default: the full table)")
+        ->option_text("DB");
+    command
+        .add_option("--budget-bytes", budget,
+                    "Keep the best model of at most so many bytes, coverage apart, e.g. 64KiB; with --tolerance both "
+                    "must hold")
+        ->option_text("BYTES");
+}
+
+LadderOptions LadderArguments::options(int threads) const
+{
+    LadderOptions options;
+    options.threads = threads;
+    if (!tolerance.empty()) {
+        const bool unit = tolerance.size() > 2 && tolerance.ends_with("dB");
+        const auto value = parseNumber(unit ? tolerance.substr(0, tolerance.size() - 2) : tolerance);
+        if (!value || !(*value > 0) || *value > 200) {
+            throw Error("", "--tolerance " + tolerance + " is not understood", "decibels above 0, e.g. 45dB",
+                        Error::kUsage);
+        }
+        options.toleranceDecibels = *value;
+    }
+    if (!budget.empty()) {
+        const size_t digits = std::min(budget.find_first_not_of("0123456789"), budget.size());
+        const std::string unit = budget.substr(digits);
+        const double factor = unit.empty() || unit == "B" ? 1 : unit == "KiB" ? 1024 : unit == "MiB" ? 1048576 : 0;
+        const auto value = parseNumber(budget.substr(0, digits));
+        if (!value || factor == 0 || *value * factor < 1 || *value * factor > 1e12) {
+            throw Error("", "--budget-bytes " + budget + " is not understood", "a number of bytes, e.g. 65536 or 64KiB",
+                        Error::kUsage);
+        }
+        options.budgetBytes = static_cast<size_t>(*value * factor);
+    }
+    return options;
+}
+
+} // namespace nacre

@@ -1,0 +1,184 @@
+#include <chrono>
+#include <memory>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "app/arguments/budget_arguments.h"
+#include "app/arguments/capture_arguments.h"
+#include "app/arguments/destinations.h"
+#include "app/arguments/interpolation_arguments.h"
+#include "app/arguments/residual_arguments.h"
+#include "app/commands/commands.h"
+#include "app/report/acquire_report.h"
+#include "app/report/acquisition_summary.h"
+#include "app/report/debug_pictures.h"
+#include "app/report/label_pictures.h"
+#include "app/report/progress_line.h"
+#include "app/report/verdict_pictures.h"
+#include "engine/files/error.h"
+#include "engine/files/whole_file.h"
+
+namespace nacre {
+
+namespace {
+
+struct AcquireArguments {
+    CaptureArguments common;
+    std::filesystem::path output;
+    std::string segment;
+    std::string coordinates = "half-difference";
+    std::vector<int> tableSize;
+    InterpolationArguments interpolation;
+    LadderArguments ladder;
+    ResidualArguments residual;
+    BudgetArguments budget;
+    std::filesystem::path report;
+    std::string range = "captured";
+};
+
+AcquireOptions optionsOf(const AcquireArguments& arguments)
+{
+    AcquireOptions options = arguments.common.stageOptions();
+    options.interpolation = arguments.interpolation.options(options.interpolation.threads);
+    options.segment = segmentOptionsFrom(arguments.segment);
+    options.ladder = arguments.ladder.options(options.interpolation.threads);
+    options.residual = arguments.residual.options(options.ladder);
+    options.bake.range = tableRangeFromName(arguments.range);
+    if (arguments.coordinates != "half-difference" && arguments.coordinates != "natural") {
+        throw Error("", fmt::format("--coordinates {} are not known", arguments.coordinates),
+                    "half-difference or natural", Error::kUsage);
+    }
+    options.bake.coordinates = arguments.coordinates == "natural" ? kNatural : kHalfDifference;
+    if (!arguments.tableSize.empty()) {
+        const std::vector<int>& s = arguments.tableSize;
+        constexpr int kLargest = 512;
+        if (s.size() != 3 || *std::min_element(s.begin(), s.end()) < 2 ||
+            *std::max_element(s.begin(), s.end()) > kLargest) {
+            throw Error("", "--table-size is not understood", fmt::format("three numbers X,Y,Z from 2 to {}", kLargest),
+                        Error::kUsage);
+        }
+        options.bake.size = {s[0], s[1], s[2]};
+    }
+    return options;
+}
+
+// Refuses now what it would refuse after the work.
+void checkOutputs(const AcquireArguments& arguments)
+{
+    if (arguments.output.extension() != ".nacre") {
+        throw Error(arguments.output, "is no name for a surface", "-o NAME.nacre", Error::kUsage);
+    }
+    requireDestination(arguments.output, arguments.common.force);
+    requireSummaryDestination(arguments.common.json);
+    requireFolderDestination(arguments.common.debugFolder);
+    requireReportDestination(arguments.report, arguments.common.force);
+}
+
+// The surface that the options give, or the best of what is possible in the time.
+BudgetResult acquireAsAsked(const Capture& capture, const AcquireOptions& options, std::optional<double> budgetSeconds,
+                            const std::function<double()>& elapsed, const Progress& progress)
+{
+    if (budgetSeconds) {
+        return acquireWithin(capture, options, candidateOrder(), *budgetSeconds, elapsed, progress);
+    }
+    BudgetResult result;
+    result.options = options;
+    result.acquisition = acquire(capture, options, progress);
+    return result;
+}
+
+// The summary and the pictures that were asked for.
+void writeExtras(const AcquireArguments& arguments, const Capture& given, const BudgetResult& found,
+                 std::optional<double> budgetSeconds)
+{
+    const CaptureArguments& common = arguments.common;
+    const Acquisition& result = found.acquisition;
+    if (!common.json.empty()) {
+        nlohmann::json summary = summaryOf(given, result);
+        if (budgetSeconds) {
+            summary["budget"] = documentOf(found, *budgetSeconds);
+        }
+        writeTextFile(common.json, summary.dump(2) + "\n");
+    }
+    if (!common.debugFolder.empty()) {
+        makeDebugFolder(common.debugFolder);
+        saveNormalPictures(common.debugFolder, result.surface.normals);
+        saveVerdictPictures(common.debugFolder, given, result.estimate);
+        saveLabelPicture(common.debugFolder, result.segmentation, given.width, given.height);
+        saveMaterialPictures(common.debugFolder, result.surface.materials);
+    }
+}
+
+void runAcquire(AcquireArguments& arguments)
+{
+    const CaptureArguments& common = arguments.common;
+    const auto start = std::chrono::steady_clock::now();
+    const auto elapsed = [&] {
+        return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    };
+    const AcquireOptions options = optionsOf(arguments);
+    const std::optional<double> budgetSeconds = arguments.budget.seconds();
+    checkOutputs(arguments);
+    const Capture capture = arguments.common.load();
+    if (!common.quiet) {
+        fmt::print("{}", describe(capture));
+    }
+    const Progress progress = progressLine(common.quiet);
+    const BudgetResult found = acquireAsAsked(capture, options, budgetSeconds, elapsed, progress);
+    const Acquisition& result = found.acquisition;
+    endProgressLine(common.quiet);
+    saveSurface(arguments.output, result.surface, common.force);
+    const Capture given = selectPhotographs(capture, result.estimate.given);
+    if (!common.quiet) {
+        fmt::print("{}", budgetSeconds ? describe(found, *budgetSeconds) : "");
+        fmt::print("{}{}{}{}{}wrote        {}\n", describeGiven(capture, result.estimate),
+                   describe(given, result.estimate.rig), describeNormals(given, result.estimate), describeBrdf(result),
+                   describe(result.estimate.times), arguments.output.string());
+    }
+    if (!common.compareRig.empty() && !common.quiet) {
+        fmt::print("{}", describeDisagreement(capture, result.estimate.given, result.estimate.rig, common.compareRig));
+    }
+    writeExtras(arguments, given, found, budgetSeconds);
+    if (!arguments.report.empty()) {
+        const CaptureReview review = reviewCapture(capture, found.options, result, progress);
+        endProgressLine(common.quiet);
+        saveReport(arguments.report, reportOf({capture, result, review, budgetSeconds ? &found : nullptr}));
+    }
+}
+
+} // namespace
+
+void addAcquireCommand(CLI::App& app)
+{
+    auto arguments = std::make_shared<AcquireArguments>();
+    CLI::App* command =
+        app.add_subcommand("acquire", "Photographs under a moving light to normals and a measured BRDF");
+    arguments->common.addTo(*command);
+    command->add_option("-o,--output", arguments->output, "The surface to write, NAME.nacre")->required();
+    command
+        ->add_option("--segment", arguments->segment,
+                     "Materials: a picture with a value or colour for each and black for none, auto to find them, "
+                     "auto:N to find N, none for one (default: the capture's labels, else none)")
+        ->option_text("FILE|auto[:N]|none");
+    arguments->interpolation.addTo(*command);
+    command
+        ->add_option("--range", arguments->range,
+                     "Of thetaD in the table: captured, front (45 degrees) or full (90); what was not captured is "
+                     "extrapolated and marked")
+        ->capture_default_str();
+    arguments->ladder.addTo(*command);
+    arguments->residual.addTo(*command);
+    command->add_option("--coordinates", arguments->coordinates, "Of the table: half-difference or natural")
+        ->capture_default_str();
+    command->add_option("--table-size", arguments->tableSize, "X,Y,Z texels (default: from the captured range)")
+        ->delimiter(',');
+    arguments->budget.addTo(*command);
+    command->add_option("--report", arguments->report,
+                        "Write report.html into this folder, a page for people; another acquisition holds photographs "
+                        "back for it");
+    command->footer("Example:\n  nacre acquire horse --mirror-sphere chrome --diffuse-sphere gray -o horse.nacre");
+    command->callback([arguments] { runAcquire(*arguments); });
+}
+
+} // namespace nacre

@@ -1,0 +1,161 @@
+#include <cmath>
+#include <memory>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "acquisition/capture/capture.h"
+#include "app/commands/commands.h"
+#include "engine/files/code_difference.h"
+#include "engine/files/error.h"
+#include "engine/files/image.h"
+#include "engine/files/measures.h"
+#include "engine/files/structural_similarity.h"
+#include "engine/files/whole_file.h"
+
+namespace nacre {
+
+namespace {
+
+constexpr int kCodeTolerance = 4; // of 255: what docs/speed.md counts
+
+struct CompareArguments {
+    std::filesystem::path picture;
+    std::filesystem::path reference;
+    std::filesystem::path mask;
+    std::filesystem::path json;
+    double peak = 0;
+    double atLeast = 0;
+    int codeTolerance = kCodeTolerance;
+    double ssimAtLeast = -1;
+};
+
+struct Comparison {
+    double peak = 0;                 // radiance that counts as 1
+    double psnr = 0;                 // dB of radiance
+    double structuralSimilarity = 0; // of 8-bit codes, as the difference below
+    CodeDifference codes;
+};
+
+Image loadForComparison(const std::filesystem::path& file)
+{
+    const ImageHeader header = readImageHeader(file);
+    return loadPhotograph(file, header.curveIsDeclared ? header.declaredCurve : TransferCurve::linear);
+}
+
+// The brightest 1 % of the reference's mask values are clipped, as everywhere (docs/accuracy.md).
+double peakOf(const Image& reference, std::span<const uint8_t> mask)
+{
+    std::vector<float> values;
+    for (int y = 0; y < reference.height; ++y) {
+        for (int x = 0; x < reference.width; ++x) {
+            if (mask[static_cast<size_t>(y) * reference.width + x]) {
+                const glm::vec3 v = reference.rgb(x, y);
+                values.insert(values.end(), {v.x, v.y, v.z});
+            }
+        }
+    }
+    return values.empty() ? 0 : quantile(values, 0.99);
+}
+
+bool holdsCodes(const std::filesystem::path& file)
+{
+    return readImageHeader(file).pixelType.starts_with("uint");
+}
+
+// What the eye compares. Two files of integers are taken as they are; else radiance up to `peak` is shown as sRGB.
+Image codesOf(const Image& radiance, const std::filesystem::path& file, bool asStored, double peak)
+{
+    return asStored ? loadImage(file) : displayImage(radiance, static_cast<float>(-std::log2(peak)));
+}
+
+Comparison compare(const CompareArguments& arguments)
+{
+    const Image picture = loadForComparison(arguments.picture);
+    const Image reference = loadForComparison(arguments.reference);
+    if (picture.width != reference.width || picture.height != reference.height) {
+        throw Error(
+            arguments.picture, fmt::format("is {}x{}", picture.width, picture.height),
+            fmt::format("{}x{}, the size of {}", reference.width, reference.height, arguments.reference.string()));
+    }
+    const std::vector<uint8_t> mask = arguments.mask.empty()
+                                          ? std::vector<uint8_t>(reference.pixelCount(), 1)
+                                          : loadMask(arguments.mask, reference.width, reference.height);
+    Comparison found;
+    found.peak = arguments.peak > 0 ? arguments.peak : peakOf(reference, mask);
+    if (!(found.peak > 0)) {
+        throw Error(arguments.reference, "is black", "a picture with light in it");
+    }
+    found.psnr = radiancePsnr(picture, reference, mask, found.peak);
+    const bool asStored = holdsCodes(arguments.picture) && holdsCodes(arguments.reference);
+    const Image codes = codesOf(picture, arguments.picture, asStored, found.peak);
+    const Image referenceCodes = codesOf(reference, arguments.reference, asStored, found.peak);
+    found.structuralSimilarity = structuralSimilarity(codes, referenceCodes, mask);
+    found.codes = codeDifference(codes, referenceCodes, mask, arguments.codeTolerance);
+    return found;
+}
+
+void writeJson(const CompareArguments& arguments, const Comparison& found)
+{
+    const nlohmann::json json = {{"radiancePsnr", found.psnr},
+                                 {"peak", found.peak},
+                                 {"structuralSimilarity", found.structuralSimilarity},
+                                 {"largestCodeDifference", found.codes.largest},
+                                 {"codeTolerance", arguments.codeTolerance},
+                                 {"shareBeyondTolerance", found.codes.share()}};
+    writeTextFile(arguments.json, json.dump(2) + "\n");
+}
+
+Error checkFailed(const CompareArguments& arguments, const std::string& figure, const std::string& expected)
+{
+    return Error(arguments.picture, figure, expected, Error::kCheckFailed);
+}
+
+void runCompare(const CompareArguments& arguments)
+{
+    if (arguments.codeTolerance < 0) {
+        throw Error("", fmt::format("--code-tolerance {} is not possible", arguments.codeTolerance), "0 to 255",
+                    Error::kUsage);
+    }
+    const Comparison found = compare(arguments);
+    fmt::print("PSNR {:.2f} dB of radiance, peak {:.4g}\n", found.psnr, found.peak);
+    fmt::print("SSIM {:.5f}; codes differ by {} of 255 at most, {:.3f} % of the pixels by more than {}\n",
+               found.structuralSimilarity, found.codes.largest, 100 * found.codes.share(), arguments.codeTolerance);
+    if (!arguments.json.empty()) {
+        writeJson(arguments, found);
+    }
+    if (found.psnr < arguments.atLeast) {
+        throw checkFailed(arguments, fmt::format("PSNR {:.2f} dB", found.psnr),
+                          fmt::format("at least {:.2f} dB", arguments.atLeast));
+    }
+    if (found.structuralSimilarity < arguments.ssimAtLeast) {
+        throw checkFailed(arguments, fmt::format("SSIM {:.5f}", found.structuralSimilarity),
+                          fmt::format("at least {:.5f}", arguments.ssimAtLeast));
+    }
+}
+
+} // namespace
+
+void addCompareCommand(CLI::App& app)
+{
+    auto arguments = std::make_shared<CompareArguments>();
+    CLI::App* command = app.add_subcommand(
+        "compare", "How far a picture is from a reference: PSNR of radiance, SSIM and codes of what the eye sees");
+    command
+        ->add_option("PICTURE", arguments->picture,
+                     "Picture to judge, of linear radiance: render's .exr (its .png is exposed for the eye)")
+        ->required();
+    command->add_option("REFERENCE", arguments->reference, "Picture that is taken for true")->required();
+    command->add_option("--mask", arguments->mask, "Picture that is white where to compare");
+    command->add_option("--peak", arguments->peak,
+                        "Radiance that counts as 1 (default: the reference's 99th percentile)");
+    command->add_option("--at-least", arguments->atLeast, "Exit with 1 below this PSNR in dB");
+    command->add_option("--code-tolerance", arguments->codeTolerance,
+                        "Count pixels off by more than this many of 255 codes [4]");
+    command->add_option("--ssim-at-least", arguments->ssimAtLeast, "Exit with 1 below this structural similarity");
+    command->add_option("--json", arguments->json, "Write the figures to this file too");
+    command->footer("Example:\n  nacre compare render.exr horse.4.tga --mask horse.mask.tga --at-least 20");
+    command->callback([arguments] { runCompare(*arguments); });
+}
+
+} // namespace nacre

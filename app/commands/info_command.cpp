@@ -1,0 +1,134 @@
+#include <algorithm>
+#include <array>
+#include <memory>
+
+#include <fmt/format.h>
+
+#include "acquisition/capture/capture.h"
+#include "acquisition/capture/picture_files.h"
+#include "app/commands/commands.h"
+#include "app/report/acquisition_summary.h"
+#include "engine/files/error.h"
+#include "engine/files/text_files.h"
+#include "engine/gpu/device_info.h"
+#include "engine/rti/ptm_file.h"
+#include "engine/surface/surface.h"
+
+namespace nacre {
+
+namespace {
+
+void printDevices()
+{
+    const std::vector<DeviceInfo> devices = listDevices();
+    if (devices.empty()) {
+        fmt::print("no Vulkan device; install a driver, e.g. mesa-vulkan-drivers\n");
+    }
+    for (size_t i = 0; i < devices.size(); ++i) {
+        const DeviceInfo& device = devices[i];
+        fmt::print("device {}     {}\ntype         {}\ndriver       {}\nVulkan       {}\n", i, device.name, device.type,
+                   device.driver, device.apiVersion);
+        if (!device.missing.empty()) {
+            fmt::print("cannot draw: lacks {}\n", device.missing);
+        }
+    }
+}
+
+void printSurface(const std::filesystem::path& folder)
+{
+    const Surface surface = loadSurface(folder);
+    const std::vector<float>& confidence = surface.normals.confidence;
+    const auto withNormal = std::count_if(confidence.begin(), confidence.end(), [](float c) { return c > 0; });
+    fmt::print("surface      {}: {}x{}, {} pixels with a normal ({:.1f} %)\nalbedo       {}\nscale        {}\n",
+               folder.string(), surface.normals.width, surface.normals.height, withNormal,
+               100.0 * static_cast<double>(withNormal) / static_cast<double>(confidence.size()),
+               surface.albedo.values.empty() ? "1 everywhere" : "per pixel",
+               surface.scale == RadianceScale::absolute ? "absolute (1/sr)" : "relative");
+    for (size_t i = 0; i < surface.materials.size(); ++i) {
+        const Material& material = surface.materials[i];
+        const auto pixels = std::count(surface.labels.begin(), surface.labels.end(), i);
+        fmt::print("material {}   {}: {} pixels, table {}\n", i, material.name, pixels, describe(material.table));
+    }
+    for (size_t i = 0; i < surface.parts.size(); ++i) {
+        const auto pixels = std::count(surface.labels.begin(), surface.labels.end(), i);
+        fmt::print("part {:<7} {}: {} pixels\n", i, surface.parts[i], pixels);
+    }
+    if (!surface.height.values.empty()) {
+        const auto [lowest, highest] = std::minmax_element(surface.height.values.begin(), surface.height.values.end());
+        fmt::print("height       {:.1f} to {:.1f} pixels\n", *lowest, *highest);
+    }
+    if (!surface.residual.empty()) {
+        fmt::print("residual     {} components, {:.1f} KiB, trusts the BRDF by {:.0f} %, of {} lights\n",
+                   surface.residual.components, static_cast<double>(bytesOf(surface.residual)) / 1024,
+                   100 * surface.residual.trust, surface.residual.nodes.size());
+    }
+    if (surface.lights.empty()) {
+        fmt::print("lights       none\n");
+        return;
+    }
+    fmt::print("\n{:>12} {} {}\n", "--light", kLightColumns, " photograph");
+    for (size_t i = 0; i < surface.lights.size(); ++i) {
+        fmt::print("{:>12} {}  {}\n", fmt::format("captured:{}", i + 1), describe(surface.lights[i].light),
+                   surface.lights[i].photograph);
+    }
+}
+
+void printPtm(const std::filesystem::path& file)
+{
+    const PtmFile ptm = loadPtm(file);
+    fmt::print("map          {}: {}, {}x{}\n", file.string(), ptmFormatName(ptm.format), ptm.width, ptm.height);
+    constexpr std::array<const char*, PtmFile::kTerms> kNames = {"x^2", "y^2", "xy", "x", "y", "1"};
+    for (size_t k = 0; k < PtmFile::kTerms; ++k) {
+        fmt::print("{:<12} (code - {}) * {:g}\n", kNames[k], ptm.bias[k], ptm.scale[k]);
+    }
+}
+
+std::string describeSphere(const std::optional<SpherePhotographs>& sphere)
+{
+    return sphere ? fmt::format("{} photographs, {}", sphere->photographs.size(), sphere->source.string()) : "none";
+}
+
+void printCapture(const std::filesystem::path& folder)
+{
+    const Capture capture = loadCapture(folder);
+    fmt::print("{}", describe(capture));
+    if (capture.lights.empty()) {
+        fmt::print("lights       not given, to be calibrated\n");
+    } else {
+        fmt::print("lights       {} directions{} from {}\n", capture.lights.size(),
+                   capture.irradianceGiven ? " and irradiances" : "", capture.lightsSource);
+    }
+    fmt::print("mirror       {}\ndiffuse      {}\n", describeSphere(capture.mirrorSphere),
+               describeSphere(capture.diffuseSphere));
+    if (!capture.truthNormals.empty()) {
+        fmt::print("truth        {}\n", capture.truthNormals.string());
+    }
+}
+
+void runInfo(const std::filesystem::path& path)
+{
+    if (path.empty()) {
+        printDevices();
+    } else if (!std::filesystem::exists(path)) {
+        throw Error(path, "does not exist", "a folder NAME.nacre or a folder of photographs");
+    } else if (lowerCase(path.extension().string()) == ".ptm") {
+        printPtm(path);
+    } else if (std::filesystem::exists(path / "surface.json")) {
+        printSurface(path);
+    } else {
+        printCapture(path);
+    }
+}
+
+} // namespace
+
+void addInfoCommand(CLI::App& app)
+{
+    auto path = std::make_shared<std::filesystem::path>();
+    CLI::App* command = app.add_subcommand("info", "The Vulkan devices; what a surface, a capture or a .ptm holds");
+    command->add_option("PATH", *path, "Folder NAME.nacre, folder of photographs or FILE.ptm (default: the devices)");
+    command->footer("Example:\n  nacre info\n  nacre info horse.nacre");
+    command->callback([path] { runInfo(*path); });
+}
+
+} // namespace nacre

@@ -1,0 +1,92 @@
+#include <algorithm>
+#include <chrono>
+#include <memory>
+
+#include <fmt/format.h>
+
+#include "app/arguments/destinations.h"
+#include "app/commands/commands.h"
+#include "app/materials/target_source.h"
+#include "engine/files/error.h"
+
+namespace nacre {
+
+namespace {
+
+void print(const TargetReport& report)
+{
+    const Surface& surface = report.surface;
+    for (const std::string& line : report.lines) {
+        fmt::print("{}\n", line);
+    }
+    const auto known = std::count_if(surface.normals.confidence.begin(), surface.normals.confidence.end(),
+                                     [](float confidence) { return confidence > 0; });
+    fmt::print("picture      {}x{}, {} pixels with a normal\n", surface.normals.width, surface.normals.height, known);
+    const auto [lowest, highest] = std::minmax_element(surface.height.values.begin(), surface.height.values.end());
+    fmt::print("height       {:.1f} to {:.1f} pixels\n", *lowest, *highest);
+    for (size_t i = 0; i < surface.parts.size(); ++i) {
+        const auto pixels = std::count(surface.labels.begin(), surface.labels.end(), i);
+        fmt::print("part {:<7} {}: {} pixels\n", i, surface.parts[i], pixels);
+    }
+    double sum = 0;
+    fmt::print("seconds      ");
+    for (const TargetStage& stage : report.stages) {
+        fmt::print("{} {:.2f}, ", stage.name, stage.seconds);
+        sum += stage.seconds;
+    }
+    fmt::print("in all {:.2f}\n", sum);
+}
+
+void runTarget(const TargetCommandArguments& arguments)
+{
+    if (arguments.output.extension() != ".nacre") {
+        throw Error(arguments.output, "is no name for a surface", "-o NAME.nacre", Error::kUsage);
+    }
+    requireDestination(arguments.output, arguments.force);
+    TargetReport report = targetFromSource(arguments);
+    for (const std::string& warning : report.warnings) {
+        fmt::print(stderr, "nacre: warning: {}\n", warning);
+    }
+    const auto start = std::chrono::steady_clock::now();
+    saveSurface(arguments.output, report.surface, arguments.force);
+    report.stages.push_back({"write", std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count()});
+    if (!arguments.quiet) {
+        print(report);
+        fmt::print("wrote        {}\n", arguments.output.string());
+    }
+}
+
+} // namespace
+
+void addTargetCommand(CLI::App& app)
+{
+    auto arguments = std::make_shared<TargetCommandArguments>();
+    CLI::App* command = app.add_subcommand("target", "A mesh, height map or normal map as a surface for materials");
+    command
+        ->add_option("SOURCE", arguments->source,
+                     "Mesh (.obj, .ply, .gltf, .glb, .stl), height map (one channel), normal map, NAME.nacre, or "
+                     "make:NAME for one of our own")
+        ->required();
+    command->add_option("-o,--output", arguments->output, "The surface to write, NAME.nacre")->required();
+    command->add_option("--from", arguments->from, "Of a mesh: x,y,z towards the distant viewer [0,0,1]");
+    command->add_option("--up", arguments->up, "Of a mesh: x,y,z that is up in the picture [0,1,0]");
+    command->add_option("--size", arguments->size,
+                        "WxH pixels (default: 1024x1024, pictures and surfaces their own size)");
+    command->add_option("--normal-map", arguments->normalMap,
+                        "Of a mesh with UVs: tangent-space map for all parts, in place of its materials'");
+    command->add_option("--normal-y", arguments->normalY, "Green of a normal map: gl (up) or dx (down) [gl]");
+    command->add_option("--height-scale", arguments->heightScale,
+                        "Of a height map: pixels from black to white, or a share of the width (default: 5%; floats "
+                        "are pixels)");
+    command->add_option("--device", arguments->device, "Vulkan device: number or part of its name, see nacre info");
+    command->add_option("--threads", arguments->threads, "Of make: (default: all)");
+    command->add_flag("--force", arguments->force, "Replace an output that exists");
+    command->add_flag("--quiet", arguments->quiet, "Print warnings alone");
+    command->footer("Example:\n  nacre target statue.obj --from 1,0.2,1 -o statue.nacre\n"
+                    "  nacre render horse.nacre --onto statue.nacre --light=-1,1,1 -o statue.png\n"
+                    "  nacre target cloth_height.png --height-scale 12 -o cloth.nacre\n"
+                    "  nacre target make:cloth -o cloth.nacre");
+    command->callback([arguments] { runTarget(*arguments); });
+}
+
+} // namespace nacre

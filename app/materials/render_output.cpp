@@ -1,0 +1,169 @@
+#include "app/materials/render_output.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "app/arguments/destinations.h"
+#include "engine/files/animation_file.h"
+#include "engine/files/error.h"
+#include "engine/scene/scene_names.h"
+#include "engine/scene/scene_residual.h"
+
+namespace nacre {
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr int kMostFrames = 10000;
+constexpr const char* kAnimation = ".webp";
+constexpr int kExposureFrames = 8; // of a sequence, to find one exposure for all
+
+Error notKnown(const char* option, const std::string& value, const char* expected)
+{
+    return Error("", fmt::format("{} {} is not known", option, value), expected, Error::kUsage);
+}
+
+RenderPath pathFromArgument(const std::string& text)
+{
+    if (text.empty() || text == "auto") {
+        return RenderPath::automatic;
+    }
+    if (text != "ball" && text != "direct") {
+        throw notKnown("--path", text, "auto, direct or ball");
+    }
+    return text == "ball" ? RenderPath::ball : RenderPath::direct;
+}
+
+LightMotion motionFromArgument(const std::string& text, int frames)
+{
+    if (text.empty()) {
+        return frames > 1 ? LightMotion::turntable : LightMotion::none;
+    }
+    if (text != "turntable" && text != "sweep" && text != "none") {
+        throw notKnown("--motion", text, "turntable, sweep or none");
+    }
+    return text == "none" ? LightMotion::none : text == "sweep" ? LightMotion::sweep : LightMotion::turntable;
+}
+
+// One for all frames of an animation.
+fs::path fileOfFrame(const fs::path& output, int frame, int frames)
+{
+    if (frames == 1 || output.extension() == kAnimation) {
+        return output;
+    }
+    return output.parent_path() /
+           fmt::format("{}_{:04}{}", output.stem().string(), frame + 1, output.extension().string());
+}
+
+std::vector<ImageAttribute> attributesOf(const DeviceInfo& device)
+{
+    return {{"Software", "nacre " NACRE_VERSION}, {"Device", device.name}, {"Driver", device.driver}};
+}
+
+// One exposure for the whole sequence, so that it does not flicker: that of its brightest frame.
+float commonExposure(Renderer& renderer, const RenderOutput& output, const std::vector<Light>& lights)
+{
+    const int probes = std::min(output.frames, kExposureFrames);
+    float stops = 0;
+    for (int i = 0; i < probes; ++i) {
+        renderer.setLights(movedLights(lights, output.motion, i * output.frames / probes, output.frames));
+        const float wanted = renderer.automaticExposure();
+        stops = i == 0 ? wanted : std::min(stops, wanted);
+    }
+    return stops;
+}
+
+// That EXR is not asked for what only pictures for the eye have.
+void checkLook(const RenderArguments& arguments, const RenderOutput& output)
+{
+    if (output.isRadiance && (arguments.exposure || !arguments.tone.empty())) {
+        throw Error(arguments.output, "knows no exposure and no tone curve, EXR holds linear radiance",
+                    "--exposure and --tone with a .png only", Error::kUsage);
+    }
+    if (output.isRadiance && output.path == RenderPath::ball) {
+        throw Error(arguments.output, "is radiance, which balls for the display do not hold", "--path ball with .png",
+                    Error::kUsage);
+    }
+    if (arguments.exposure && !std::isfinite(*arguments.exposure)) {
+        throw Error("", "--exposure is not finite", "a number of stops", Error::kUsage);
+    }
+    if (output.show == Show::verdicts) {
+        throw Error("", "--show verdicts needs the photographs", "nacre view SURFACE --capture FOLDER --show verdicts",
+                    Error::kUsage);
+    }
+    if (output.isRadiance && output.show != Show::picture) {
+        throw Error(arguments.output, "is radiance, which has no false colours", "--show with .png or .webp",
+                    Error::kUsage);
+    }
+    if (output.isRadiance && output.residual == ResidualUse::alone) {
+        throw Error(arguments.output, "is radiance, which is not drawn about middle grey",
+                    "--residual alone with .png or .webp", Error::kUsage);
+    }
+}
+
+} // namespace
+
+RenderOutput checkedOutput(const RenderArguments& arguments)
+{
+    const std::string extension = arguments.output.extension().string();
+    if (extension != ".png" && extension != ".exr" && extension != kAnimation) {
+        throw Error(arguments.output, "is no picture that render writes",
+                    ".png (8-bit sRGB) or .exr (linear radiance) or .webp (animated)", Error::kUsage);
+    }
+    RenderOutput output;
+    output.frames = arguments.frames.value_or(1);
+    if (output.frames < 1 || output.frames > kMostFrames) {
+        throw Error("", fmt::format("--frames {} is out of range", output.frames), fmt::format("1 to {}", kMostFrames),
+                    Error::kUsage);
+    }
+    output.motion = motionFromArgument(arguments.motion, output.frames);
+    output.path = pathFromArgument(arguments.path);
+    output.toneCurve = toneCurveFromName(arguments.tone);
+    output.show = showFromName(arguments.show);
+    output.residual = residualUseFromName(arguments.residual);
+    output.isRadiance = extension == ".exr";
+    output.isAnimation = extension == kAnimation;
+    checkLook(arguments, output);
+    for (int frame = 0; frame < output.frames; ++frame) {
+        requireDestination(fileOfFrame(arguments.output, frame, output.frames), arguments.force);
+    }
+    return output;
+}
+
+RenderedOutput renderFrames(Renderer& renderer, const RenderArguments& arguments, const RenderOutput& output,
+                            const Scene& scene)
+{
+    const std::vector<ImageAttribute> attributes = attributesOf(renderer.context().info());
+    std::optional<AnimationFile> animation;
+    if (output.isAnimation) {
+        animation.emplace(arguments.output, scene.surface.normals.width, scene.surface.normals.height);
+    }
+    RenderedOutput rendered{.first = fileOfFrame(arguments.output, 0, output.frames)};
+    renderer.setPath(output.path);
+    renderer.setShow(output.show);
+    renderer.setResidual(residualOfExposure(output.residual));
+    if (output.isExposed()) {
+        rendered.stops = arguments.exposure ? *arguments.exposure : commonExposure(renderer, output, scene.lights);
+        renderer.setDisplay({.exposureStops = rendered.stops, .toneCurve = output.toneCurve});
+    }
+    renderer.setResidual(output.residual);
+    for (int frame = 0; frame < output.frames; ++frame) {
+        renderer.setLights(movedLights(scene.lights, output.motion, frame, output.frames));
+        const fs::path file = fileOfFrame(arguments.output, frame, output.frames);
+        if (animation) {
+            animation->add(renderer.picture());
+        } else if (output.isRadiance) {
+            saveImage(file, renderer.radiance(), PixelType::float32, attributes);
+        } else {
+            saveImage(file, renderer.picture(), PixelType::uint8, attributes);
+        }
+    }
+    if (animation) {
+        animation->write();
+    }
+    return rendered;
+}
+
+} // namespace nacre

@@ -1,0 +1,36 @@
+#pragma once
+#include "engine/gpu/renderer.h"
+#include "engine/lights/light_motion.h"
+#include "engine/loading/render_arguments.h"
+
+namespace nacre {
+
+// What is written, from the output's extension and --frames: .exr holds linear radiance, .png is exposed for the
+// eye, and so is .webp. Several frames make numbered pictures (NAME_0001.png), or one .webp that moves.
+struct RenderOutput {
+    int frames = 1;
+    LightMotion motion = LightMotion::none;
+    RenderPath path = RenderPath::automatic;
+    int toneCurve = kToneSrgb;
+    Show show = Show::picture;
+    ResidualUse residual = ResidualUse::on;
+    bool isRadiance = false;
+    bool isAnimation = false;
+
+    // Falls with exposure and tone curve: false colours have none.
+    bool isExposed() const { return !isRadiance && (show == Show::picture || show == Show::coverage); }
+};
+
+// Throws Error (usage) where options contradict each other, Error (data) where the output cannot be written.
+RenderOutput checkedOutput(const RenderArguments& arguments);
+
+struct RenderedOutput {
+    std::filesystem::path first; // file
+    float stops = 0;             // of pictures for the eye
+};
+
+// Draws and writes all frames of the scene, whose surface and view the renderer has.
+RenderedOutput renderFrames(Renderer& renderer, const RenderArguments& arguments, const RenderOutput& output,
+                            const Scene& scene);
+
+} // namespace nacre

@@ -1,0 +1,59 @@
+#pragma once
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "engine/loading/rig_argument.h"
+#include "engine/surface/surface.h"
+
+namespace nacre {
+
+// What nacre transfer takes, as text.
+struct TransferArguments {
+    std::vector<std::string> materials;
+    std::vector<std::string> targets;
+    std::vector<std::string> rigs;
+    std::vector<std::string> labels; // INDEX=MATERIAL
+    std::filesystem::path fits;
+    std::filesystem::path output;
+    std::string size = "512x512";
+    std::string motion;
+    std::string device;
+    int frames = 1;
+    int threads = 0;
+    bool hatch = false;
+    bool shadows = false;
+    bool force = false;
+    bool quiet = false;
+};
+
+// What a row of the sheets is made of: one material everywhere, or one a part.
+struct TransferRow {
+    std::string name;
+    std::vector<Material> materials;
+    std::vector<size_t> ofPart; // index into materials a part; parts beyond have the first
+};
+
+struct TransferTarget {
+    std::string name;
+    Surface surface; // without materials
+};
+
+struct TransferSources {
+    std::vector<TransferRow> rows;
+    std::vector<TransferTarget> targets;
+    std::vector<LightRig> rigs;
+    std::vector<std::string> warnings;             // for stderr
+    double materialSeconds = 0, targetSeconds = 0; // of reading
+};
+
+// Throws Error about whatever cannot be used, before anything is written.
+TransferSources loadTransferSources(const TransferArguments& arguments);
+
+// The target dressed: each part in its material.
+Surface dressed(const TransferTarget& target, const TransferRow& row);
+
+// A ball to set beside the targets; of several materials each has a vertical band.
+Surface referenceBall(const TransferRow& row, int size);
+
+} // namespace nacre

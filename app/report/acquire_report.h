@@ -1,0 +1,26 @@
+#pragma once
+#include <filesystem>
+#include <optional>
+
+#include "evaluation/charts/budget_search.h"
+#include "evaluation/held_out/capture_review.h"
+
+namespace nacre {
+
+// What a report is made of; all are referred to.
+struct ReportSubject {
+    const Capture& capture;
+    const Acquisition& acquisition;
+    const CaptureReview& review;
+    const BudgetResult* budget = nullptr; // where time was budgeted
+};
+
+// One page for people: photographs, lights, verdicts, normals, the BRDF's coverage and model, and how well every
+// photograph is predicted. It needs no other file, no network and no script.
+std::string reportOf(const ReportSubject& subject);
+
+// Refuses a folder whose report would be replaced without `replace`, or that cannot be made. Empty: none asked for.
+void requireReportDestination(const std::filesystem::path& folder, bool replace);
+void saveReport(const std::filesystem::path& folder, const std::string& html);
+
+} // namespace nacre

@@ -1,0 +1,160 @@
+#include "assets/synth/synth_scene.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "assets/synth/material_patches.h"
+#include "assets/synth/synth_lights.h"
+#include "engine/files/error.h"
+#include "engine/files/measures.h"
+#include "engine/files/parallel_for.h"
+#include "engine/materials/material_specification.h"
+#include "shared/shading.h"
+
+namespace nacre {
+namespace {
+
+// Where the exposure puts the 99.5th percentile of the object's values, so that only the heart of a highlight clips.
+constexpr double kExposedPercentile = 0.995;
+constexpr double kExposedValue = 0.7;
+// The diffuse sphere shares the object's exposure and must not clip at all: its brightest value, noise aside.
+constexpr double kLargestSphereValue = 0.9;
+// Pixels that the percentiles are taken from, evenly spread over the object.
+constexpr size_t kPercentilePixels = 4096;
+constexpr size_t kMostMaterials = 16; // 30 patches
+
+void require(bool condition, const char* wrong, const char* expected)
+{
+    if (!condition) {
+        throw Error({}, wrong, expected, Error::kUsage);
+    }
+}
+
+void check(const SynthOptions& o)
+{
+    require(std::min(o.width, o.height) >= 8, "--size is too small", "8 pixels or more");
+    require(o.sphereSize >= 32, "--sphere-size is too small", "32 pixels or more");
+    require(o.lights >= 1, "--lights is not positive", "one light or more");
+    require(o.capDegrees > 0 && o.capDegrees < 90, "--cap-degrees is out of range", "more than 0 and less than 90");
+    require(o.noise >= 0 && o.noise < 1, "--noise is out of range", "0 or more and less than 1");
+    require(o.patches.size() < kMostMaterials, "--material is given too often", "16 times at most");
+    require(!o.exposures.empty(), "--exposures is empty", "relative times such as 1,0.25");
+    require(std::all_of(o.exposures.begin(), o.exposures.end(), [](double t) { return t > 0.0; }),
+            "--exposures holds a time that is not positive", "relative times such as 1,0.25");
+}
+
+BumpySolid solidOf(SynthShape shape)
+{
+    return shape == SynthShape::sphere ? plainSphere() : bumpySolid();
+}
+
+std::vector<uint8_t> labelsOf(const OrthographicView& view, size_t materials)
+{
+    std::vector<uint8_t> labels(view.mask.size(), SynthScene::kNoMaterial);
+    for (const uint32_t pixel : view.seen) {
+        labels[pixel] = static_cast<uint8_t>(patchMaterial(glm::normalize(view.surfacePoint(pixel)), materials));
+    }
+    return labels;
+}
+
+bool isLit(const SynthScene& scene, uint32_t pixel, const Light& light)
+{
+    return dot(scene.view.normals.normals[pixel], light.direction) > 0.0f &&
+           (!scene.options.shadows || scene.solid.reachesLight(scene.view.surfacePoint(pixel), light.direction));
+}
+
+vec3 pixelRadiance(const SynthScene& scene, uint32_t pixel, const Light& light)
+{
+    const vec3& n = scene.view.normals.normals[pixel];
+    vec3 f = evaluate(scene.models[scene.labels[pixel]], n, light.direction, vec3(0, 0, 1));
+    return radianceFromBrdf(f, light.irradiance, dot(n, light.direction));
+}
+
+// Brightest channels of a part of the object's pixels under every light.
+std::vector<float> sampledRadiance(const SynthScene& scene)
+{
+    const std::vector<uint32_t>& seen = scene.view.seen;
+    const size_t stride = std::max<size_t>(1, seen.size() / kPercentilePixels);
+    const size_t samples = (seen.size() + stride - 1) / stride;
+    std::vector<float> brightest(samples * scene.lights.size(), 0.0f);
+    parallelFor(samples, 64, scene.options.threads, [&](size_t first, size_t last) {
+        for (size_t i = first; i < last; ++i) {
+            for (size_t j = 0; j < scene.lights.size(); ++j) {
+                if (isLit(scene, seen[i * stride], scene.lights[j])) {
+                    vec3 radiance = pixelRadiance(scene, seen[i * stride], scene.lights[j]);
+                    brightest[i * scene.lights.size() + j] = max(radiance.x, max(radiance.y, radiance.z));
+                }
+            }
+        }
+    });
+    return brightest;
+}
+
+double brightestSphereRadiance(const SynthScene& scene)
+{
+    float brightest = 0;
+    for (const Light& light : scene.lights) {
+        vec3 radiance = light.irradiance * scene.options.sphereReflectance / kPi;
+        brightest = max(brightest, max(radiance.x, max(radiance.y, radiance.z)));
+    }
+    return brightest;
+}
+
+Sensor exposedSensor(const SynthScene& scene)
+{
+    std::vector<float> radiance = sampledRadiance(scene);
+    const double bright = quantile(radiance, kExposedPercentile);
+    require(bright > 0.0, "the material reflects no light", "a material with some reflectance");
+    Sensor sensor;
+    sensor.gain = std::min(kExposedValue / bright, kLargestSphereValue / brightestSphereRadiance(scene));
+    sensor.noise = scene.options.noise * quantile(radiance, 0.99) * sensor.gain;
+    sensor.clips = scene.options.format == SynthFormat::png16;
+    sensor.seed = scene.options.seed;
+    return sensor;
+}
+
+} // namespace
+
+SynthScene makeSynthScene(const SynthOptions& options)
+{
+    check(options);
+    std::vector<BrdfModel> models{parseMaterial(options.material, options.fitsFolder).model};
+    for (const std::string& patch : options.patches) {
+        models.push_back(parseMaterial(patch, options.fitsFolder).model);
+    }
+    BumpySolid solid = solidOf(options.shape);
+    OrthographicView view = viewOf(solid, options.width, options.height, options.threads);
+    std::vector<uint8_t> labels = labelsOf(view, models.size());
+    SynthScene scene{
+        options, std::move(solid), std::move(view), synthLights(options), std::move(models), std::move(labels), {}};
+    scene.sensor = exposedSensor(scene);
+    return scene;
+}
+
+std::vector<uint8_t> litPixels(const SynthScene& scene, const Light& light, int threads)
+{
+    std::vector<uint8_t> lit(scene.view.mask.size(), 0);
+    parallelFor(scene.view.seen.size(), 1024, threads, [&](size_t first, size_t last) {
+        for (size_t i = first; i < last; ++i) {
+            lit[scene.view.seen[i]] = isLit(scene, scene.view.seen[i], light);
+        }
+    });
+    return lit;
+}
+
+Image objectRadiance(const SynthScene& scene, const Light& light, int threads)
+{
+    Image radiance(scene.view.normals.width, scene.view.normals.height, 3);
+    parallelFor(scene.view.seen.size(), 1024, threads, [&](size_t first, size_t last) {
+        for (size_t i = first; i < last; ++i) {
+            uint32_t pixel = scene.view.seen[i];
+            if (isLit(scene, pixel, light)) {
+                radiance.setRgb(pixel % radiance.width, pixel / radiance.width, pixelRadiance(scene, pixel, light));
+            }
+        }
+    });
+    return radiance;
+}
+
+} // namespace nacre

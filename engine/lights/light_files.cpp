@@ -1,0 +1,248 @@
+#include "engine/lights/light_files.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
+
+#include "engine/files/strict_json.h"
+#include "engine/files/text_files.h"
+#include "engine/files/whole_file.h"
+
+namespace nacre {
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr int kLightsVersion = 1;
+constexpr std::string_view kLightsFormat = "nacre lights";
+constexpr const char* kDirection = "a vector towards the light, of any length but 0";
+constexpr const char* kIrradiance = "three positive numbers";
+
+bool isDirection(const glm::vec3& v)
+{
+    const double length = glm::length(glm::dvec3(v));
+    return length > 0 && std::isfinite(length);
+}
+
+bool isIrradiance(const glm::vec3& e)
+{
+    return e.x > 0 && e.y > 0 && e.z > 0 && std::isfinite(e.x + e.y + e.z);
+}
+
+// In double, so that vectors of any length keep a direction.
+glm::vec3 normalized(const glm::vec3& v)
+{
+    return glm::vec3(glm::normalize(glm::dvec3(v)));
+}
+
+std::string described(const glm::vec3& v)
+{
+    return fmt::format("({}, {}, {})", v.x, v.y, v.z);
+}
+
+std::vector<glm::vec3> vectorsOf(const fs::path& file, const NumberTable& rows)
+{
+    std::vector<glm::vec3> vectors;
+    if (rows[0].size() == 3) {
+        for (const auto& row : rows) {
+            vectors.emplace_back(row[0], row[1], row[2]);
+        }
+    } else if (rows.size() == 3) {
+        for (size_t i = 0; i < rows[0].size(); ++i) {
+            vectors.emplace_back(rows[0][i], rows[1][i], rows[2][i]);
+        }
+    } else {
+        throw Error(file, fmt::format("has {} rows of {} numbers", rows.size(), rows[0].size()),
+                    "three numbers a line, or three lines");
+    }
+    return vectors;
+}
+
+LightFile loadLightsJson(const fs::path& file)
+{
+    const JsonNode root = JsonNode::loadVersioned(file, kLightsFormat, kLightsVersion);
+    root.allowKeys({"format", "version", "lights"});
+    const std::vector<JsonNode> nodes = root.at("lights").items();
+    LightFile result;
+    for (const JsonNode& node : nodes) {
+        node.allowKeys({"photograph", "direction", "irradiance"});
+        if (node.has("photograph") != nodes[0].has("photograph") ||
+            node.has("irradiance") != nodes[0].has("irradiance")) {
+            throw node.error("has other keys than lights[0]",
+                             "a photograph and an irradiance for all lights or for none");
+        }
+        Light light{directionOf(node.at("direction")), glm::vec3(1)};
+        if (const auto irradiance = node.find("irradiance")) {
+            light.irradiance = irradianceOf(*irradiance);
+            result.irradianceGiven = true;
+        }
+        if (const auto photograph = node.find("photograph")) {
+            result.photographs.push_back(photograph->text());
+        }
+        result.lights.push_back(light);
+    }
+    return result;
+}
+
+} // namespace
+
+LightFile loadLightFile(const fs::path& file)
+{
+    const std::string extension = lowerCase(file.extension().string());
+    if (extension == ".lp") {
+        return loadLpFile(file);
+    }
+    if (extension == ".json") {
+        return loadLightsJson(file);
+    }
+    LightFile result;
+    for (const glm::vec3& direction : loadDirections(file)) {
+        result.lights.push_back({direction, glm::vec3(1)});
+    }
+    return result;
+}
+
+namespace {
+
+struct LpLine {
+    std::string_view photograph;
+    glm::vec3 vector;
+};
+
+// "file x y z"; empty where it is none.
+std::optional<LpLine> parseLpLine(std::string_view line)
+{
+    const NumbersAtEnd found = takeNumbersFromEnd(line, 3);
+    if (found.numbers.size() != 3 || found.rest.empty()) {
+        return std::nullopt;
+    }
+    return LpLine{found.rest, glm::vec3(found.numbers[0], found.numbers[1], found.numbers[2])};
+}
+
+} // namespace
+
+LightFile loadLpList(const fs::path& file)
+{
+    const std::vector<std::string> lines = loadTextLines(file);
+    if (lines.empty() || std::any_of(lines.begin(), lines.end(), [](const auto& l) { return parseLpLine(l); })) {
+        return loadLpFile(file);
+    }
+    const bool counted = parseNumber(lines[0]).has_value();
+    if (counted) {
+        requireAnnouncedCount(file, parseCount(file, lines[0]), lines.size() - 1);
+    }
+    LightFile result;
+    result.photographs.assign(lines.begin() + (counted ? 1 : 0), lines.end());
+    return result;
+}
+
+LightFile loadLpFile(const fs::path& file)
+{
+    const std::vector<std::string> lines = loadTextLines(file);
+    if (lines.empty()) {
+        throw Error(file, "is empty", "a count, then \"file x y z\" a line");
+    }
+    const bool counted = !parseLpLine(lines[0]);
+    if (counted) {
+        requireAnnouncedCount(file, parseCount(file, lines[0]), lines.size() - 1);
+    }
+    LightFile result;
+    for (size_t i = counted ? 1 : 0; i < lines.size(); ++i) {
+        const std::optional<LpLine> line = parseLpLine(lines[i]);
+        if (!line) {
+            throw Error(file, fmt::format("\"{}\" is no photograph with its light", lines[i]), "\"file x y z\"");
+        }
+        if (!isDirection(line->vector)) {
+            throw Error(file, fmt::format("the light of {} is {}", line->photograph, described(line->vector)),
+                        kDirection);
+        }
+        result.photographs.emplace_back(line->photograph);
+        result.lights.push_back({normalized(line->vector), glm::vec3(1)});
+    }
+    return result;
+}
+
+std::vector<glm::vec3> loadDirections(const fs::path& file)
+{
+    std::vector<glm::vec3> directions = vectorsOf(file, loadNumberTable(file));
+    for (glm::vec3& v : directions) {
+        if (!isDirection(v)) {
+            throw Error(file, fmt::format("light {} is {}", &v - directions.data() + 1, described(v)), kDirection);
+        }
+        v = normalized(v);
+    }
+    return directions;
+}
+
+std::vector<glm::vec3> loadIrradiances(const fs::path& file)
+{
+    const NumberTable rows = loadNumberTable(file);
+    std::vector<glm::vec3> irradiances;
+    if (rows.size() == 1 || rows[0].size() == 1) {
+        for (const auto& row : rows) {
+            for (const double grey : row) {
+                irradiances.emplace_back(grey);
+            }
+        }
+    } else {
+        irradiances = vectorsOf(file, rows);
+    }
+    for (const glm::vec3& e : irradiances) {
+        if (!isIrradiance(e)) {
+            throw Error(file, fmt::format("light {} has the irradiance {}", &e - irradiances.data() + 1, described(e)),
+                        kIrradiance);
+        }
+    }
+    return irradiances;
+}
+
+glm::vec3 directionOf(const JsonNode& node)
+{
+    const glm::vec3 v = node.vector3();
+    if (!isDirection(v)) {
+        throw node.error("is " + described(v), kDirection);
+    }
+    return normalized(v);
+}
+
+glm::vec3 irradianceOf(const JsonNode& node)
+{
+    const glm::vec3 e = node.vector3();
+    if (!isIrradiance(e)) {
+        throw node.error("is " + described(e), kIrradiance);
+    }
+    return e;
+}
+
+void saveLightFile(const fs::path& file, const LightFile& lights)
+{
+    using nlohmann::json;
+    json list = json::array();
+    for (size_t i = 0; i < lights.lights.size(); ++i) {
+        const auto& [direction, irradiance] = lights.lights[i];
+        json light{{"direction", {direction.x, direction.y, direction.z}}};
+        if (!lights.photographs.empty()) {
+            light["photograph"] = lights.photographs[i];
+        }
+        if (lights.irradianceGiven) {
+            light["irradiance"] = {irradiance.x, irradiance.y, irradiance.z};
+        }
+        list.push_back(std::move(light));
+    }
+    const json root{{"format", kLightsFormat}, {"version", kLightsVersion}, {"lights", std::move(list)}};
+    writeTextFile(file, root.dump(2, ' ', false, json::error_handler_t::replace) + "\n");
+}
+
+void saveLpFile(const fs::path& file, const LightFile& lights)
+{
+    std::string text = fmt::format("{}\n", lights.lights.size());
+    for (size_t i = 0; i < lights.lights.size(); ++i) {
+        const glm::vec3& d = lights.lights[i].direction;
+        text += fmt::format("{} {:.7f} {:.7f} {:.7f}\n", lights.photographs[i], d.x, d.y, d.z);
+    }
+    writeTextFile(file, text);
+}
+
+} // namespace nacre

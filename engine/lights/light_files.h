@@ -1,0 +1,47 @@
+#pragma once
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+#include "engine/lights/light.h"
+
+namespace nacre {
+
+class JsonNode;
+
+// Lights as a file gives them, directions normalised.
+struct LightFile {
+    std::vector<Light> lights;
+    std::vector<std::string> photographs; // one name per light, folders in front possible; empty where none is named
+    bool irradianceGiven = false;         // false: irradiance 1
+};
+
+// By extension: `.lp`, `.json` ("nacre lights", docs/formats.md), anything else a table of directions.
+LightFile loadLightFile(const std::filesystem::path& file);
+
+// RTI: the count of lights, which may be missing, then "file x y z" a line; names may hold spaces.
+LightFile loadLpFile(const std::filesystem::path& file);
+
+// The same, or the names of photographs alone, one a line: without lights.
+LightFile loadLpList(const std::filesystem::path& file);
+
+// Three numbers a line, or three lines of equal length; three by three is three numbers a line. The count of lights
+// may stand before them. Directions are normalised, zero is refused.
+std::vector<glm::vec3> loadDirections(const std::filesystem::path& file);
+
+// The same for irradiances, all positive; a single number a line, or a single line, holds one for all three channels.
+std::vector<glm::vec3> loadIrradiances(const std::filesystem::path& file);
+
+// Three numbers in JSON, checked alike.
+glm::vec3 directionOf(const JsonNode& node);
+glm::vec3 irradianceOf(const JsonNode& node);
+
+// The "nacre lights" JSON; without irradiances where they are not given.
+void saveLightFile(const std::filesystem::path& file, const LightFile& lights);
+
+// The count and "file x y z" a line: directions alone.
+void saveLpFile(const std::filesystem::path& file, const LightFile& lights);
+
+} // namespace nacre
