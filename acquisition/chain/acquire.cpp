@@ -32,30 +32,24 @@ std::optional<Segmentation> knownSegmentation(const Capture& capture, const Segm
     return segmentation;
 }
 
-// What every pixel tells of its material, by rough normals.
-Segmentation findSegmentation(CaptureWalk& walk, const Capture& capture, const AcquireOptions& options,
-                              const Progress& progress, NormalEstimate& estimate)
+// What every pixel tells of its material, by rough normals of a method that asks nothing of the object as a whole.
+Segmentation findSegmentation(PreparedCapture& prepared, const Capture& capture, const AcquireOptions& options,
+                              StageClock& clock, const Progress& progress)
 {
+    NormalOptions rough = options.normals;
+    rough.method = NormalMethod::consensus;
+    const ChosenMethod consensus = chooseMethod(prepared.reconciled.sample, prepared.checked, rough);
+    const Segmentation whole = oneMaterial(capture);
+    NormalEstimate unused = startEstimate(prepared, consensus);
     std::vector<PixelTraits> traits;
-    StageClock clock(estimate.times);
-    walk.survey([&](const Observations& block, const NormalBlock& normals) {
-        const std::vector<PixelTraits> more = clock.time(
-            "materials", [&] { return pixelTraits(block, normals, estimate.rig.lights, options.samples.threads); });
+    BlockWalk walk(prepared.blocks, clock, progress, "materials");
+    while (const Observations* block = walk.next()) {
+        const NormalBlock normals = estimateNormals(prepared, consensus, whole, *block, false, unused);
+        const std::vector<PixelTraits> more =
+            pixelTraits(*block, normals, prepared.rig.lights, options.samples.threads);
         traits.insert(traits.end(), more.begin(), more.end());
-    });
-    progress("materials", 0);
-    return clock.time("materials", [&] { return foundSegmentation(traits, capture, options.segment); });
-}
-
-// Normals, and on the way samples.
-std::vector<BrdfSamples> estimateAndGather(CaptureWalk& walk, const AcquireOptions& options, Image& albedo,
-                                           Acquisition& result)
-{
-    MaterialSamples gathered(result.segmentation, options, result.samples);
-    walk.estimate(result.segmentation, [&](const Observations& block, const NormalBlock& normals) {
-        gathered.gather(block, normals, result.estimate.rig.lights, albedo);
-    });
-    return std::move(gathered.samples);
+    }
+    return foundSegmentation(traits, capture, options.segment);
 }
 
 BrdfInterpolant interpolate(const BrdfSamples& samples, const AcquireOptions& options, InterpolationChoice& choice)
@@ -67,31 +61,49 @@ BrdfInterpolant interpolate(const BrdfSamples& samples, const AcquireOptions& op
     return makeInterpolant(samples, choice.options);
 }
 
-std::vector<BakedMaterial> bakeAll(const std::vector<BrdfSamples>& samples, const AcquireOptions& options,
-                                   Acquisition& result)
+std::vector<BakedMaterial> bakeAll(const std::vector<BrdfSamples>& samples, const Segmentation& segmentation,
+                                   const AcquireOptions& options, std::vector<MaterialFit>& fits)
 {
     std::vector<BakedMaterial> materials;
     for (size_t i = 0; i < samples.size(); ++i) {
+        const std::string& name = segmentation.regions[i].name;
         if (samples.size() > 1 && samples[i].size() == 0) {
-            throw Error("",
-                        fmt::format("material {} has no observation to measure a BRDF from",
-                                    result.segmentation.regions[i].name),
+            throw Error("", fmt::format("material {} has no observation to measure a BRDF from", name),
                         "lit, unsaturated pixels with normals");
         }
-        BrdfInterpolant interpolant = interpolate(samples[i], options, result.fits.emplace_back().interpolation);
+        BrdfInterpolant interpolant = interpolate(samples[i], options, fits.emplace_back().interpolation);
         BakedBrdf baked = bakeBrdf(samples[i], interpolant, options.bake);
-        materials.push_back(
-            {result.segmentation.regions[i].name, std::move(interpolant), std::move(baked), glm::vec3(1)});
+        materials.push_back({name, std::move(interpolant), std::move(baked), glm::vec3(1)});
     }
     return materials;
 }
 
-Surface surfaceOf(const Capture& capture, const Acquisition& result, NormalMap normals, Image albedo,
-                  std::vector<Material> materials)
+// Refits every pixel's factor to its material's table; the tables take what the factors' mean comes to.
+Image finishAlbedo(const Capture& capture, PreparedCapture& prepared, const NormalMap& normals,
+                   const std::vector<uint8_t>& labels, Image albedo, std::vector<BakedMaterial>& baked, int threads,
+                   StageClock& clock, const Progress& progress)
 {
-    const Rig& rig = result.estimate.rig;
+    std::vector<BrdfTable*> tables;
+    for (BakedMaterial& material : baked) {
+        tables.push_back(&material.baked.table);
+    }
+    BlockWalk walk(prepared.blocks, clock, progress, "albedo");
+    while (const Observations* block = walk.next()) {
+        refitAlbedo(*block, normals, prepared.rig.lights, labels, tables, threads, albedo);
+    }
+    const std::vector<glm::vec3> scales = finishAlbedo(capture, labels, tables, albedo);
+    for (size_t i = 0; i < baked.size(); ++i) {
+        baked[i].scale = scales[i];
+    }
+    return albedo;
+}
+
+Surface surfaceOf(const Capture& capture, const PreparedCapture& prepared, NormalMap normals,
+                  std::vector<uint8_t> labels, Image albedo, std::vector<Material> materials)
+{
+    const Rig& rig = prepared.rig;
     Surface surface;
-    surface.labels = result.segmentation.labels;
+    surface.labels = std::move(labels);
     for (size_t i = 0; i < surface.labels.size(); ++i) {
         if (normals.confidence[i] <= 0) {
             surface.labels[i] = Surface::kNoMaterial;
@@ -102,54 +114,63 @@ Surface surfaceOf(const Capture& capture, const Acquisition& result, NormalMap n
     surface.albedo = std::move(albedo);
     surface.scale = rig.absolute ? RadianceScale::absolute : RadianceScale::relative;
     for (size_t i = 0; i < rig.lights.size(); ++i) {
-        surface.lights.push_back({capture.photographs[i].name, rig.lights[i]});
+        surface.lights.push_back({capture.photographs[prepared.given[i]].name, rig.lights[i]});
     }
     return surface;
 }
 
 } // namespace
 
+NormalsAndSamples estimateAndSample(PreparedCapture& prepared, const Capture& capture, const Segmentation& segmentation,
+                                    const AcquireOptions& options, StageClock& clock, const Progress& progress)
+{
+    progress("choosing", 0);
+    clock.enter("choosing");
+    const ChosenMethod chosen =
+        chooseMethod(prepared.reconciled.sample, prepared.checked, segmentation, options.normals);
+    NormalsAndSamples result{startEstimate(prepared, chosen), startSamples(capture, segmentation)};
+    BlockWalk walk(prepared.blocks, clock, progress, "normals");
+    while (const Observations* block = walk.next()) {
+        const NormalBlock normals =
+            estimateNormals(prepared, chosen, segmentation, *block, options.keepVerdicts, result.estimate);
+        clock.enter("samples");
+        gatherSamples(*block, normals, prepared.rig.lights, segmentation, options, result.gathered);
+    }
+    finishEstimate(capture, result.estimate);
+    return result;
+}
+
 Acquisition acquire(const Capture& capture, const AcquireOptions& options, const Progress& progress)
 {
     Acquisition result;
-    NormalEstimate& estimate = result.estimate;
+    StageClock clock;
     std::optional<Segmentation> known = knownSegmentation(capture, options.segment);
-    CaptureWalk walk(capture, options, progress, estimate);
-    result.segmentation = known ? std::move(*known) : findSegmentation(walk, capture, options, progress, estimate);
-    const std::vector<uint8_t>& labels = result.segmentation.labels;
-    Image albedo(capture.width, capture.height, 3);
-    const std::vector<BrdfSamples> samples = estimateAndGather(walk, options, albedo, result);
+    PreparedCapture prepared = prepareCapture(capture, options, clock, progress);
+    result.segmentation = known ? std::move(*known) : findSegmentation(prepared, capture, options, clock, progress);
+    auto [estimate, gathered] = estimateAndSample(prepared, capture, result.segmentation, options, clock, progress);
     progress("baking", 0);
-    StageClock clock(estimate.times);
-    std::vector<BakedMaterial> baked = clock.time("baking", [&] { return bakeAll(samples, options, result); });
-    std::vector<BrdfTable*> tables;
-    for (BakedMaterial& material : baked) {
-        tables.push_back(&material.baked.table);
-    }
-    progress("albedo", 0);
-    walk.revisit([&](const Observations& block) {
-        clock.time("albedo", [&] {
-            refitAlbedo(block, estimate.normals, estimate.rig.lights, labels, tables, options.bake.threads, albedo);
-        });
-    });
-    const std::vector<glm::vec3> scales = finishAlbedo(capture, labels, tables, albedo);
-    for (size_t i = 0; i < baked.size(); ++i) {
-        baked[i].scale = scales[i];
-    }
-    ReducedMaterials reduced = clock.time("model", [&] { return reduceMaterials(std::move(baked), options.ladder); });
+    clock.enter("baking");
+    std::vector<BakedMaterial> baked = bakeAll(gathered.samples, result.segmentation, options, result.fits);
+    Image albedo = finishAlbedo(capture, prepared, estimate.normals, result.segmentation.labels,
+                                std::move(gathered.albedo), baked, options.bake.threads, clock, progress);
+    clock.enter("model");
+    ReducedMaterials reduced = reduceMaterials(std::move(baked), options.ladder);
     for (size_t i = 0; i < reduced.ladders.size(); ++i) {
         result.fits[i].ladder = std::move(reduced.ladders[i]);
     }
     result.shared = std::move(reduced.shared);
-    result.surface = surfaceOf(selectPhotographs(capture, estimate.given), result, std::move(estimate.normals),
+    result.surface = surfaceOf(capture, prepared, std::move(estimate.normals), result.segmentation.labels,
                                std::move(albedo), std::move(reduced.materials));
     if (options.residual.choice != ResidualChoice::none) {
         progress("residual", 0);
-        clock.time("residual", [&] {
-            result.surface.residual = estimateResidual(
-                result.surface, options.residual, [&](const auto& visit) { walk.revisit(visit); }, result.residual);
-        });
+        clock.enter("residual");
+        EstimatedResidual residual = estimateResidual(result.surface, options.residual, prepared.blocks);
+        result.surface.residual = std::move(residual.layer);
+        result.residual = std::move(residual.report);
     }
+    result.samples = gathered.counts;
+    result.estimate = std::move(estimate);
+    result.estimate.times = clock.finish();
     return result;
 }
 

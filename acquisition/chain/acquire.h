@@ -2,6 +2,7 @@
 #include "acquisition/brdf/interpolation_choice.h"
 #include "acquisition/brdf/shared_ladder.h"
 #include "acquisition/chain/acquire_options.h"
+#include "acquisition/chain/material_samples.h"
 #include "acquisition/chain/normal_estimation.h"
 #include "acquisition/residual/residual_report.h"
 #include "acquisition/segmentation/segmentation.h"
@@ -24,6 +25,14 @@ struct Acquisition {
     SharedLadder shared;           // of several materials, where a smaller model was asked for
     ResidualReport residual;
 };
+
+// Normals, and on the way samples of the BRDF with first albedo factors: the blocks are walked once for both.
+struct NormalsAndSamples {
+    NormalEstimate estimate;
+    MaterialSamples gathered;
+};
+NormalsAndSamples estimateAndSample(PreparedCapture& prepared, const Capture& capture, const Segmentation& segmentation,
+                                    const AcquireOptions& options, StageClock& clock, const Progress& progress);
 
 // Photographs -> lights -> normals -> materials -> samples -> BRDF tables -> albedo factors -> residual layer: the
 // whole chain. A capture that fits into options.byteBudget is read once, a larger one once more for each of its later

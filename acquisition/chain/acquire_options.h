@@ -1,7 +1,4 @@
 #pragma once
-#include <functional>
-#include <string>
-
 #include "acquisition/brdf/bake.h"
 #include "acquisition/brdf/brdf_samples.h"
 #include "acquisition/brdf/model_ladder.h"
@@ -35,8 +32,5 @@ struct AcquireOptions {
             ladder.threads = residual.threads = threads;
     }
 };
-
-// Called with the stage's name and its finished share in [0, 1].
-using Progress = std::function<void(const std::string&, double)>;
 
 } // namespace nacre

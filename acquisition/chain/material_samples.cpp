@@ -19,23 +19,28 @@ void storeAlbedo(const Observations& block, const std::vector<glm::vec3>& factor
 
 } // namespace
 
-void MaterialSamples::gather(const Observations& block, const NormalBlock& normals, const std::vector<Light>& lights,
-                             Image& albedo)
+MaterialSamples startSamples(const Capture& capture, const Segmentation& segmentation)
+{
+    return {std::vector<BrdfSamples>(segmentation.regions.size()), {}, Image(capture.width, capture.height, 3)};
+}
+
+void gatherSamples(const Observations& block, const NormalBlock& normals, const std::vector<Light>& lights,
+                   const Segmentation& segmentation, const AcquireOptions& options, MaterialSamples& gathered)
 {
     const std::vector<glm::vec3> factors = albedoFactors(block, normals, lights);
-    storeAlbedo(block, factors, albedo);
+    storeAlbedo(block, factors, gathered.albedo);
     const auto label = [&](uint32_t pixel) -> size_t {
-        return segmentation_.inner[pixel] ? segmentation_.labels[pixel] : kUnlabelled;
+        return segmentation.inner[pixel] ? segmentation.labels[pixel] : kUnlabelled;
     };
     const auto take = [&](size_t material, const BlockPart& part) {
         const double observations =
-            static_cast<double>(segmentation_.regions[material].inner) * static_cast<double>(lights.size());
-        const double share = static_cast<double>(options_.samples.most) / std::max(observations, 1.0);
-        samples[material].domain = tableDomain(lights, options_.bake);
-        gatherSamples(part.seen, part.normals, part.albedo, lights, share, options_.samples, samples[material],
-                      counts_);
+            static_cast<double>(segmentation.regions[material].inner) * static_cast<double>(lights.size());
+        const double share = static_cast<double>(options.samples.most) / std::max(observations, 1.0);
+        BrdfSamples& samples = gathered.samples[material];
+        samples.domain = tableDomain(lights, options.bake);
+        gatherSamples(part.seen, part.normals, part.albedo, lights, share, options.samples, samples, gathered.counts);
     };
-    forEachMaterial(block, normals, factors, samples.size(), label, take);
+    forEachMaterial(block, normals, factors, gathered.samples.size(), label, take);
 }
 
 } // namespace nacre

@@ -6,23 +6,17 @@
 
 namespace nacre {
 
-// Samples of f of each material from its inner pixels, with a first albedo factor of every pixel.
-class MaterialSamples {
-public:
-    MaterialSamples(const Segmentation& segmentation, const AcquireOptions& options, SampleCounts& counts)
-        : samples(segmentation.regions.size()), segmentation_(segmentation), options_(options), counts_(counts)
-    {
-    }
-
-    // `albedo`: the factors, over whole photographs.
-    void gather(const Observations& block, const NormalBlock& normals, const std::vector<Light>& lights, Image& albedo);
-
-    std::vector<BrdfSamples> samples; // one a material
-
-private:
-    const Segmentation& segmentation_;
-    const AcquireOptions& options_;
-    SampleCounts& counts_;
+// What is sampled on the way over a capture's blocks.
+struct MaterialSamples {
+    std::vector<BrdfSamples> samples; // of f, one set a material, from its inner pixels
+    SampleCounts counts;              // of all of them
+    Image albedo;                     // a first factor of every pixel, over whole photographs
 };
+
+MaterialSamples startSamples(const Capture& capture, const Segmentation& segmentation);
+
+// Adds a block's samples and factors.
+void gatherSamples(const Observations& block, const NormalBlock& normals, const std::vector<Light>& lights,
+                   const Segmentation& segmentation, const AcquireOptions& options, MaterialSamples& gathered);
 
 } // namespace nacre

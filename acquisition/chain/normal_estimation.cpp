@@ -1,8 +1,9 @@
 #include "acquisition/chain/normal_estimation.h"
 
-#include "acquisition/chain/material_normals.h"
+#include <utility>
+
 #include "acquisition/checks/height_consistency.h"
-#include "acquisition/exemplar/normal_method.h"
+#include "acquisition/checks/lambertian_residual.h"
 #include "acquisition/normals/pixel_sample.h"
 #include "acquisition/normals/smooth_fill.h"
 
@@ -42,53 +43,40 @@ void storeNormals(const Observations& block, const NormalBlock& estimated, bool 
     }
 }
 
-std::vector<std::string> namesOf(const std::vector<Photograph>& photographs)
+// A few thousand pixels spread evenly over the whole mask.
+Observations sampleOf(ObservationBlocks& blocks)
 {
-    std::vector<std::string> names;
-    for (const Photograph& photograph : photographs) {
-        names.push_back(photograph.name);
+    const size_t step = sampleStep(blocks.capture().maskPixels);
+    Observations sample;
+    size_t seen = 0;
+    while (const Observations* block = blocks.next()) {
+        addToSample(*block, seen, step, sample);
+        seen += block->pixels.size();
     }
-    return names;
+    return sample;
 }
 
-// All lights are calibrated before any is chosen, so that irradiances do not depend on the choice.
-Capture calibrateAndChoose(const Capture& capture, const AcquireOptions& options, NormalEstimate& result)
+CaptureSample captureSampleOf(ObservationBlocks& blocks, const std::vector<Light>& lights)
 {
-    const Rig rig = calibrateLights(capture, options.calibration);
-    result.given = chosenLights(rig.lights, options.lights);
-    result.rig = selectLights(rig, result.given);
-    requireSpanningLights(result.rig.lights, capture.folder);
-    return selectPhotographs(capture, result.given);
-}
-
-bool areIrradiancesKnown(const Capture& capture)
-{
-    return capture.irradianceGiven || capture.diffuseSphere.has_value();
-}
-
-// Takes over what was found out, and which photographs are left.
-void keepPrepared(const Capture& capture, const PreparedNormals& prepared, NormalEstimate& result)
-{
-    for (size_t i = 0, next = 0; i < capture.photographs.size(); ++i) {
-        if (next < prepared.agreeing.size() && prepared.agreeing[next] == i) {
-            ++next;
-        } else {
-            result.leftOut.push_back(capture.photographs[i].name);
-        }
+    const Capture& capture = blocks.capture();
+    CaptureSample sample{sampleOf(blocks), {}, capture.irradianceGiven || capture.diffuseSphere, lights, capture.width};
+    for (const Photograph& photograph : capture.photographs) {
+        sample.photographs.push_back(photograph.name);
     }
+    return sample;
+}
+
+// Takes what was left out away, and the corrected irradiances over.
+void keepReconciled(PreparedCapture& prepared)
+{
     std::vector<size_t> given;
-    for (const size_t i : prepared.agreeing) {
-        given.push_back(result.given[i]);
+    for (const size_t i : prepared.reconciled.agreeing) {
+        given.push_back(prepared.given[i]);
     }
-    result.given = given;
-    result.rig = selectLights(result.rig, prepared.agreeing);
-    result.rig.lights = prepared.lights;
-    result.report = prepared.report;
-}
-
-void addRemarks(const std::vector<std::string>& remarks, NormalReport& report)
-{
-    report.remarks.insert(report.remarks.end(), remarks.begin(), remarks.end());
+    prepared.given = given;
+    prepared.rig = selectLights(prepared.rig, prepared.reconciled.agreeing);
+    prepared.rig.lights = prepared.reconciled.sample.lights;
+    prepared.blocks.keepLights(prepared.reconciled.agreeing);
 }
 
 // No normals, so no samples, from pixels that are to be smoothed over.
@@ -101,141 +89,84 @@ void dropMarked(const Capture& capture, const Observations& block, NormalBlock& 
     }
 }
 
-void smoothMarked(const Capture& capture, NormalEstimate& result)
-{
-    if (!capture.smooth.empty()) {
-        result.pixelsSmoothed = fillSmoothly(result.normals, capture.smooth, capture.mask);
-        result.pixelsWithoutNormal -= result.pixelsSmoothed;
-    }
-}
-
 } // namespace
 
-CaptureWalk::CaptureWalk(const Capture& capture, const AcquireOptions& options, const Progress& progress,
-                         NormalEstimate& result)
-    : options_(options), progress_(progress), result_(result), clock_(result.times)
+// All lights are calibrated before any is chosen, so that irradiances do not depend on the choice.
+PreparedCapture prepareCapture(const Capture& capture, const AcquireOptions& options, StageClock& clock,
+                               const Progress& progress)
 {
     progress("lights", 0);
-    given_ = clock_.time("lights", [&] { return calibrateAndChoose(capture, options, result); });
+    clock.enter("lights");
+    const Rig rig = calibrateLights(capture, options.calibration);
+    const std::vector<size_t> given = chosenLights(rig.lights, options.lights);
+    PreparedCapture prepared{
+        ObservationBlocks(selectPhotographs(capture, given), options.normals.threads, options.byteBudget),
+        given,
+        selectLights(rig, given),
+        {},
+        {},
+        0};
+    requireSpanningLights(prepared.rig.lights, capture.folder);
+    progress("reading", 0);
+    clock.enter("reading");
+    CaptureSample sample = captureSampleOf(prepared.blocks, prepared.rig.lights);
+    progress("choosing", 0);
+    clock.enter("choosing");
+    prepared.reconciled = reconcilePhotographs(std::move(sample), options);
+    keepReconciled(prepared);
+    const CaptureSample& agreeing = prepared.reconciled.sample;
+    prepared.checked = checkCapture(agreeing.seen, agreeing.width, agreeing.lights, options.normals);
+    prepared.lambertianResidual = lambertianResidual(agreeing.seen, agreeing.lights);
+    return prepared;
 }
 
-void CaptureWalk::prepare(const Observations& first)
+NormalEstimate startEstimate(const PreparedCapture& prepared, const ChosenMethod& chosen)
 {
-    CaptureSample sample{samplePixels(given_, first, options_.normals.threads, options_.byteBudget),
-                         namesOf(given_.photographs), areIrradiancesKnown(given_), result_.rig.lights, given_.width};
-    prepared_ = preparePhotographs(sample, options_);
-    sample_ = std::move(sample.seen);
-    keepPrepared(given_, prepared_, result_);
+    NormalEstimate estimate;
+    estimate.given = prepared.given;
+    estimate.rig = prepared.rig;
+    estimate.leftOut = prepared.reconciled.leftOut;
+    estimate.report = {chosen.method, prepared.reconciled.findings, prepared.lambertianResidual};
+    append(estimate.report.findings, warningsOf(prepared.rig.lights));
+    append(estimate.report.findings, prepared.checked.findings);
+    append(estimate.report.findings, chosen.findings);
+    estimate.normals = NormalMap(prepared.blocks.capture().width, prepared.blocks.capture().height);
+    estimate.verdicts.resize(prepared.rig.lights.size());
+    return estimate;
 }
 
-void CaptureWalk::makeEstimators()
+NormalBlock estimateNormals(const PreparedCapture& prepared, const ChosenMethod& chosen, const Segmentation& materials,
+                            const Observations& block, bool keepVerdicts, NormalEstimate& estimate)
 {
-    result_.report = prepared_.report;
-    const std::vector<Light>& lights = prepared_.lights;
-    if (!materials_) {
-        NormalOptions options = options_.normals;
-        options.method = NormalMethod::consensus;
-        estimators_ = {makeNormalEstimator(intensitiesOf(sample_, lights), lights, options, result_.report)};
-        return;
-    }
-    estimators_ = estimatorsByMaterial(sample_, *materials_, lights, options_.normals, result_.report);
-    if (estimators_.size() == 1) { // a material's estimator knows nothing of the others
-        addRemarks(methodWarnings(prepared_.checked, result_.report.method, estimators_.front()), result_.report);
-    }
-}
-
-NormalBlock CaptureWalk::normalsOf(const Observations& block)
-{
-    NormalBlock normals = clock_.time("normals", [&] {
-        return estimators_.size() == 1 ? estimateBlock(estimators_[0], block, prepared_.lights)
-                                       : estimateByMaterial(estimators_, *materials_, block, prepared_.lights);
-    });
-    dropMarked(given_, block, normals);
+    NormalBlock normals = estimateBlock(chosen, materials, block, prepared.rig.lights);
+    dropMarked(prepared.blocks.capture(), block, normals);
+    storeNormals(block, normals, keepVerdicts, estimate);
     return normals;
 }
 
-void CaptureWalk::eachBlock(ObservationReader& reader, Observations& block, bool more,
-                            const std::function<void(const Observations&)>& visit)
+void finishEstimate(const Capture& capture, NormalEstimate& estimate)
 {
-    for (size_t seen = 0; more; more = clock_.time("reading", [&] { return reader.next(block); })) {
-        progress_("normals", static_cast<double>(seen) / static_cast<double>(given_.maskPixels));
-        seen += block.pixels.size();
-        if (prepared_.agreeing.size() < block.lightCount) {
-            block = selectLights(block, prepared_.agreeing);
-        }
-        visit(block);
+    append(estimate.report.findings, heightWarnings(estimate.normals));
+    if (!capture.smooth.empty()) {
+        estimate.pixelsSmoothed = fillSmoothly(estimate.normals, capture.smooth, capture.mask);
+        estimate.pixelsWithoutNormal -= estimate.pixelsSmoothed;
     }
-}
-
-// Estimators are made once the first block has shown the photographs.
-void CaptureWalk::walkFiles(const std::function<void(const Observations&)>& visit)
-{
-    ObservationReader reader(given_, options_.normals.threads, options_.byteBudget);
-    Observations block;
-    progress_("reading", 0);
-    const bool more = clock_.time("reading", [&] { return reader.next(block); });
-    if (sample_.pixels.empty()) {
-        progress_("choosing", 0);
-        clock_.time("choosing", [&] { prepare(block); });
-    }
-    clock_.time("choosing", [&] { makeEstimators(); });
-    eachBlock(reader, block, more, [&](const Observations& seen) {
-        visit(seen);
-        if (seen.pixels.size() == given_.maskPixels) {
-            whole_ = seen;
-        }
-    });
-}
-
-void CaptureWalk::walk(const Visitor& visit)
-{
-    const auto show = [&](const Observations& block) { visit(block, normalsOf(block)); };
-    if (whole_.pixels.empty()) {
-        walkFiles(show);
-        return;
-    }
-    progress_("choosing", 0);
-    clock_.time("choosing", [&] { makeEstimators(); });
-    show(whole_);
-}
-
-void CaptureWalk::survey(const Visitor& visit)
-{
-    materials_ = nullptr;
-    walk(visit);
-}
-
-void CaptureWalk::estimate(const Segmentation& materials, const Visitor& visit)
-{
-    materials_ = &materials;
-    result_.normals = NormalMap(given_.width, given_.height);
-    walk([&](const Observations& block, const NormalBlock& normals) {
-        result_.verdicts.resize(block.lightCount);
-        storeNormals(block, normals, options_.keepVerdicts, result_);
-        visit(block, normals);
-    });
-    addRemarks(heightWarnings(result_.normals), result_.report);
-    smoothMarked(given_, result_);
-}
-
-void CaptureWalk::revisit(const std::function<void(const Observations&)>& visit)
-{
-    if (!whole_.pixels.empty()) {
-        visit(whole_);
-        return;
-    }
-    ObservationReader reader(given_, options_.normals.threads, options_.byteBudget);
-    Observations block;
-    const bool more = clock_.time("reading", [&] { return reader.next(block); });
-    eachBlock(reader, block, more, visit);
 }
 
 NormalEstimate estimateCaptureNormals(const Capture& capture, const AcquireOptions& options, const Progress& progress)
 {
-    NormalEstimate result;
+    StageClock clock;
+    PreparedCapture prepared = prepareCapture(capture, options, clock, progress);
+    const ChosenMethod chosen = chooseMethod(prepared.reconciled.sample, prepared.checked, options.normals);
+    NormalEstimate estimate = startEstimate(prepared, chosen);
     const Segmentation whole = oneMaterial(capture);
-    CaptureWalk(capture, options, progress, result).estimate(whole, [](const Observations&, const NormalBlock&) {});
-    return result;
+    BlockWalk walk(prepared.blocks, clock, progress, "normals");
+    while (const Observations* block = walk.next()) {
+        estimateNormals(prepared, chosen, whole, *block, options.keepVerdicts, estimate);
+    }
+    finishEstimate(capture, estimate);
+    estimate.times = clock.finish();
+    return estimate;
 }
 
 } // namespace nacre

@@ -1,13 +1,9 @@
 #pragma once
-#include <functional>
 #include <string>
 #include <vector>
 
-#include "acquisition/capture/capture.h"
-#include "acquisition/chain/acquire_options.h"
-#include "acquisition/chain/prepared_normals.h"
-#include "acquisition/chain/stage_clock.h"
-#include "acquisition/segmentation/segmentation.h"
+#include "acquisition/chain/block_walk.h"
+#include "acquisition/chain/chosen_method.h"
 
 namespace nacre {
 
@@ -31,46 +27,29 @@ struct NormalEstimate {
     std::vector<StageTime> times;
 };
 
-// Walks a capture block by block: first to estimate normals, then as often as asked. A capture that is one block is
-// read once and held; a larger one is read again.
-class CaptureWalk {
-public:
-    using Visitor = std::function<void(const Observations&, const NormalBlock&)>;
-
-    // Calibrates the lights and chooses photographs. All are referred to while the walk lives.
-    CaptureWalk(const Capture& capture, const AcquireOptions& options, const Progress& progress,
-                NormalEstimate& result);
-
-    // Rough normals of each block, by a method that asks nothing of the object as a whole: for finding materials.
-    void survey(const Visitor& visit);
-    // Photographs -> normals: fills the result, and shows each block on the way. The method looks at each material by
-    // itself. `materials` are referred to while the walk lives.
-    void estimate(const Segmentation& materials, const Visitor& visit);
-    // The blocks once more.
-    void revisit(const std::function<void(const Observations&)>& visit);
-
-private:
-    void prepare(const Observations& first);
-    void makeEstimators();
-    void walk(const Visitor& visit);
-    void walkFiles(const std::function<void(const Observations&)>& visit);
-    void eachBlock(ObservationReader& reader, Observations& block, bool more,
-                   const std::function<void(const Observations&)>& visit);
-    NormalBlock normalsOf(const Observations& block);
-
-    const AcquireOptions& options_;
-    const Progress& progress_;
-    NormalEstimate& result_;
-    StageClock clock_;
-    Capture given_;
-    PreparedNormals prepared_; // its estimator is not used
-    Observations sample_;
-    const Segmentation* materials_ = nullptr; // null: none are known
-    std::vector<NormalEstimator> estimators_; // one a material
-    Observations whole_;                      // of a capture that is one block
+// A capture that is ready for normals: read, calibrated, its photographs reconciled and checked against each other.
+struct PreparedCapture {
+    ObservationBlocks blocks;  // of the photographs in use
+    std::vector<size_t> given; // these, as indices into the capture's photographs
+    Rig rig;                   // of these, irradiances as corrected
+    ReconciledPhotographs reconciled;
+    CheckedSample checked;
+    double lambertianResidual = 0; // see lambertian_residual.h
 };
 
-// Photographs -> lights -> normals.
+PreparedCapture prepareCapture(const Capture& capture, const AcquireOptions& options, StageClock& clock,
+                               const Progress& progress);
+
+// An estimate without normals yet: what was found out before any.
+NormalEstimate startEstimate(const PreparedCapture& prepared, const ChosenMethod& chosen);
+// One block of it. Pixels that the capture marks to be smoothed over get none, so no samples either. Answers the
+// block's normals.
+NormalBlock estimateNormals(const PreparedCapture& prepared, const ChosenMethod& chosen, const Segmentation& materials,
+                            const Observations& block, bool keepVerdicts, NormalEstimate& estimate);
+// What can be said of the whole map, and marked pixels smoothed in.
+void finishEstimate(const Capture& capture, NormalEstimate& estimate);
+
+// Photographs -> lights -> normals, of an object of one material.
 NormalEstimate estimateCaptureNormals(const Capture& capture, const AcquireOptions& options, const Progress& progress);
 
 } // namespace nacre

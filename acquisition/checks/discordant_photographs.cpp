@@ -71,8 +71,8 @@ std::vector<DiscordantPhotograph> findDiscordant(const PhotographRatios& ratios,
     return canBeSpared(discordant, lights) ? discordant : std::vector<DiscordantPhotograph>{};
 }
 
-std::string describeDiscordant(const std::vector<DiscordantPhotograph>& discordant, const PhotographRatios& ratios,
-                               const std::vector<std::string>& names)
+Finding describeDiscordant(const std::vector<DiscordantPhotograph>& discordant, const PhotographRatios& ratios,
+                           const std::vector<std::string>& names)
 {
     std::string list;
     for (const DiscordantPhotograph& d : discordant) {
@@ -82,9 +82,10 @@ std::string describeDiscordant(const std::vector<DiscordantPhotograph>& discorda
                 : fmt::format("{:.1f} %", 100 * d.scatter.spread);
         list += fmt::format("{}{} ({})", list.empty() ? "" : ", ", names[d.index], figure);
     }
-    return fmt::format("{} photograph(s) left out, since no intensity makes them agree with the others, whose pixels "
-                       "scatter by {:.1f} %: {}",
-                       discordant.size(), 100 * medianScatter(ratios), list);
+    return {FindingCode::photographsLeftOut,
+            fmt::format("{} photograph(s) left out, since no intensity makes them agree with the others, whose pixels "
+                        "scatter by {:.1f} %: {}",
+                        discordant.size(), 100 * medianScatter(ratios), list)};
 }
 
 } // namespace nacre

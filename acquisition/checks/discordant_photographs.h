@@ -2,6 +2,7 @@
 #include <string>
 #include <vector>
 
+#include "acquisition/capture/finding.h"
 #include "acquisition/checks/intensity_refinement.h"
 
 namespace nacre {
@@ -19,7 +20,7 @@ struct DiscordantPhotograph {
 std::vector<DiscordantPhotograph> findDiscordant(const PhotographRatios& ratios, const std::vector<Light>& lights);
 
 // A remark for the user: names, figures, and what is usual here.
-std::string describeDiscordant(const std::vector<DiscordantPhotograph>& discordant, const PhotographRatios& ratios,
-                               const std::vector<std::string>& names);
+Finding describeDiscordant(const std::vector<DiscordantPhotograph>& discordant, const PhotographRatios& ratios,
+                           const std::vector<std::string>& names);
 
 } // namespace nacre

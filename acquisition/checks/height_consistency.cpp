@@ -123,7 +123,7 @@ HeightConsistency heightConsistencyOf(const NormalMap& map)
     return result;
 }
 
-std::vector<std::string> heightWarnings(const NormalMap& map)
+std::vector<Finding> heightWarnings(const NormalMap& map)
 {
     const HeightConsistency found = heightConsistencyOf(map);
     const double turn = glm::length(found.turnDegrees);
@@ -131,15 +131,17 @@ std::vector<std::string> heightWarnings(const NormalMap& map)
         return {};
     }
     if (found.flippedRatio > kFlipped) {
-        return {fmt::format("warning: these are no height's normals, but with y turned around they nearly are (slopes "
-                            "disagree {:.1f} times as much as they would): the lights' y points downwards? It has to "
-                            "point upwards",
-                            found.flippedRatio)};
+        return {{FindingCode::yFlipped,
+                 fmt::format("the normals fit a surface {:.1f} times better with y reversed: the y of the lights "
+                             "probably points down; it has to point up",
+                             found.flippedRatio)}};
     }
     if (turn > kLargestTurn && found.turnedRatio < kTellingTurn) {
-        return {fmt::format("warning: all normals, and so all lights, seem turned by {:.0f} degrees: so turned, slopes "
-                            "disagree by {:.0f} % less; check the mirror sphere's outline, or the frame of the lights",
-                            turn, 100 * (1 - found.turnedRatio))};
+        return {
+            {FindingCode::lightsTurned,
+             fmt::format("all normals, and so all lights, seem turned by {:.0f} degrees: turned back, slopes disagree "
+                         "by {:.0f} % less; check the mirror sphere's outline, or the frame of the lights",
+                         turn, 100 * (1 - found.turnedRatio))}};
     }
     return {};
 }

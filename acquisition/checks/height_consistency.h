@@ -4,6 +4,7 @@
 
 #include <glm/vec2.hpp>
 
+#include "acquisition/capture/finding.h"
 #include "engine/surface/normal_map.h"
 
 namespace nacre {
@@ -20,7 +21,7 @@ struct HeightConsistency {
 };
 HeightConsistency heightConsistencyOf(const NormalMap& map);
 
-// "warning: ..." where the lights' y must be upside down, or all lights turned.
-std::vector<std::string> heightWarnings(const NormalMap& map);
+// A warning where the lights' y must be upside down, or all lights turned.
+std::vector<Finding> heightWarnings(const NormalMap& map);
 
 } // namespace nacre

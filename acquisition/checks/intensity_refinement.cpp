@@ -203,14 +203,15 @@ bool canCompare(const Observations& sample)
     return sample.lightCount >= kFewestLights && sample.pixels.size() >= kFewestPixels;
 }
 
-std::vector<std::string> correctIntensities(const PhotographRatios& found, const std::vector<std::string>& names,
-                                            bool known, std::vector<Light>& lights)
+std::vector<Finding> correctIntensities(const PhotographRatios& found, const std::vector<std::string>& names,
+                                        bool known, std::vector<Light>& lights)
 {
-    std::vector<std::string> remarks;
+    std::vector<Finding> remarks;
     if (!known) {
         remarks.push_back(
-            fmt::format("intensities estimated from the photographs themselves in {} steps: {:.2f} to {:.2f}",
-                        found.iterations, leastGrey(found.ratios), largestGrey(found.ratios)));
+            {FindingCode::intensitiesEstimated,
+             fmt::format("intensities estimated from the photographs themselves in {} steps: {:.2f} to {:.2f}",
+                         found.iterations, leastGrey(found.ratios), largestGrey(found.ratios))});
     }
     std::vector<glm::vec3> corrected;
     std::string corrections;
@@ -224,10 +225,12 @@ std::vector<std::string> correctIntensities(const PhotographRatios& found, const
         }
     }
     if (!corrected.empty()) {
-        remarks.push_back(fmt::format(
-            "{} photograph(s) are {:.2f} to {:.2f} times as bright as the others predict; their intensities "
-            "were corrected: {}",
-            corrected.size(), leastGrey(corrected), largestGrey(corrected), corrections));
+        remarks.push_back(
+            {FindingCode::intensitiesCorrected,
+             fmt::format(
+                 "{} photograph(s) are {:.2f} to {:.2f} times as bright as the others predict; their intensities "
+                 "were corrected: {}",
+                 corrected.size(), leastGrey(corrected), largestGrey(corrected), corrections)});
     }
     return remarks;
 }

@@ -2,6 +2,7 @@
 #include <string>
 #include <vector>
 
+#include "acquisition/capture/finding.h"
 #include "acquisition/capture/observations.h"
 #include "acquisition/normals/normals.h"
 
@@ -38,7 +39,7 @@ bool canCompare(const Observations& sample);
 
 // Multiplies irradiances by the ratios: of every light where irradiances are not `known`, else of the photographs that
 // disagree with the rest. Answers a remark for each, by the photographs' names.
-std::vector<std::string> correctIntensities(const PhotographRatios& found, const std::vector<std::string>& names,
-                                            bool known, std::vector<Light>& lights);
+std::vector<Finding> correctIntensities(const PhotographRatios& found, const std::vector<std::string>& names,
+                                        bool known, std::vector<Light>& lights);
 
 } // namespace nacre

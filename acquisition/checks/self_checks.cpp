@@ -46,25 +46,31 @@ Observations thinned(const Observations& sample)
     return few;
 }
 
-std::string describe(const CaptureDefect& defect, double scatter)
+Finding findingOf(const CaptureDefect& defect, double scatter)
 {
     const std::string gain = fmt::format("Lambert's law then misses matte parts by {:.1f} instead of {:.1f} %",
                                          100 * defect.scatter, 100 * scatter);
     switch (defect.kind) {
     case CaptureDefect::Kind::encoded:
-        return fmt::format("warning: the photographs are not linear (raised to the power {:.2g}, {}): a transfer curve "
-                           "is left in them; give --transfer srgb, or linear files",
-                           defect.size, gain);
+        return {
+            FindingCode::transferCurveLeft,
+            fmt::format("the photographs are not linear (raised to the power {:.2g}, {}): a transfer curve is left in "
+                        "them; give --transfer srgb, or linear files",
+                        defect.size, gain)};
     case CaptureDefect::Kind::decoded:
-        return fmt::format("warning: the photographs are not linear (raised to the power {:.2g}, {}): a transfer curve "
-                           "was taken from them that they did not have; give --transfer linear",
-                           defect.size, gain);
+        return {
+            FindingCode::transferCurveTaken,
+            fmt::format("the photographs are not linear (raised to the power {:.2g}, {}): a transfer curve was taken "
+                        "from them that they did not have; give --transfer linear",
+                        defect.size, gain)};
     case CaptureDefect::Kind::nearLights:
         break;
     }
-    return fmt::format("warning: the lights are not distant (at {:.2g} widths of the object, {}); move them away, or "
-                       "photograph less of the object",
-                       defect.size, gain);
+    return {
+        FindingCode::lightsNear,
+        fmt::format("the lights are not distant (at {:.2g} widths of the object, {}); move them away, or photograph "
+                    "less of the object",
+                    defect.size, gain)};
 }
 
 // Shares of the observations that face their light.
@@ -89,18 +95,19 @@ Shares sharesOf(const CheckedSample& sample)
     return {static_cast<double>(clipped) / all, static_cast<double>(shadowed) / all};
 }
 
-void warnOfShares(const Shares& shares, std::vector<std::string>& warnings)
+void warnOfShares(const Shares& shares, std::vector<Finding>& warnings)
 {
     if (shares.clipped > kLargestClipped) {
-        warnings.push_back(fmt::format("warning: {:.0f} % of what the lights reach is clipped; expose shorter, or take "
-                                       "brackets",
-                                       100 * shares.clipped));
+        warnings.push_back(
+            {FindingCode::clipped, fmt::format("{:.0f} % of what the lights reach is clipped; expose shorter, or take "
+                                               "brackets",
+                                               100 * shares.clipped)});
     }
     if (shares.shadowed > kLargestShadowed) {
-        warnings.push_back(
-            fmt::format("warning: {:.0f} % of what faces a light is dark: cast shadows, or wrong lights; "
-                        "normals lean away from what is in the way",
-                        100 * shares.shadowed));
+        warnings.push_back({FindingCode::shadowed,
+                            fmt::format("{:.0f} % of what faces a light is dark: cast shadows, or wrong lights; "
+                                        "normals lean away from what is in the way",
+                                        100 * shares.shadowed)});
     }
 }
 
@@ -143,9 +150,10 @@ double unexplainedShare(const NormalBlock& block, const std::vector<Light>& ligh
 } // namespace
 
 CheckedSample checkCapture(const Observations& sample, int width, const std::vector<Light>& lights,
-                           const NormalOptions& options, std::vector<std::string>& warnings)
+                           const NormalOptions& options)
 {
     CheckedSample checked;
+    std::vector<Finding>& warnings = checked.findings;
     checked.seen = thinned(sample);
     checked.lights = lights;
     if (checked.seen.pixels.size() < kFewestCheckedPixels || lights.size() < kFewestCheckedLights) {
@@ -158,29 +166,30 @@ CheckedSample checkCapture(const Observations& sample, int width, const std::vec
     checked.scatter = matteScatter(checked.intensities, checked.consensus, lights,
                                    matteObservations(checked.intensities, checked.consensus, lights));
     if (const auto defect = findDefect(checked.seen, width, lights, quick, checked.scatter)) {
-        warnings.push_back(describe(*defect, checked.scatter));
+        warnings.push_back(findingOf(*defect, checked.scatter));
     }
     const double misfit = lightMisfitDegrees(checked.intensities, checked.consensus, lights);
     if (misfit > kLargestMisfit) {
-        warnings.push_back(fmt::format("warning: the photographs contradict the directions of their lights by {:.1f} "
-                                       "degrees in the median; check their order, or calibrate them anew",
-                                       misfit));
+        warnings.push_back({FindingCode::directionsContradicted,
+                            fmt::format("the photographs contradict the directions of their lights by {:.1f} "
+                                        "degrees in the median; check their order, or calibrate them anew",
+                                        misfit)});
     }
     checked.instability = instabilityDegrees(checked.intensities, lights, quick);
     if (checked.instability > kLargestInstability) {
-        warnings.push_back(fmt::format("warning: normals move by {:.1f} degrees with the choice of photographs: noise, "
-                                       "wrong irradiances, shadows, or too few lights; take more, or better exposed "
-                                       "ones",
-                                       checked.instability));
+        warnings.push_back({FindingCode::normalsUnstable,
+                            fmt::format("normals move by {:.1f} degrees with the choice of photographs: noise, "
+                                        "wrong irradiances, shadows, or too few lights; take more, or better exposed "
+                                        "ones",
+                                        checked.instability)});
     }
     warnOfShares(sharesOf(checked), warnings);
     return checked;
 }
 
-std::vector<std::string> methodWarnings(const CheckedSample& sample, NormalMethod method,
-                                        const NormalEstimator& estimator)
+std::vector<Finding> methodWarnings(const CheckedSample& sample, NormalMethod method, const NormalEstimator& estimator)
 {
-    std::vector<std::string> warnings;
+    std::vector<Finding> warnings;
     if (sample.consensus.pixels.empty()) {
         return warnings;
     }
@@ -188,20 +197,23 @@ std::vector<std::string> methodWarnings(const CheckedSample& sample, NormalMetho
     const NormalBlock own = estimator(sample.intensities);
     const double difference = meanDifference(own, sample.consensus), unexplained = unexplainedShare(own, sample.lights);
     if (!knowsGloss && sample.scatter > kLargestScatter) {
-        warnings.push_back(fmt::format("warning: even matte parts miss Lambert's law by {:.1f} %, on which {} rests: "
-                                       "gloss, noise or wrong lights; exemplar knows gloss",
-                                       100 * sample.scatter, nameOf(method)));
+        warnings.push_back({FindingCode::notLambertian,
+                            fmt::format("even matte parts miss Lambert's law by {:.1f} %, on which {} rests: "
+                                        "gloss, noise or wrong lights; exemplar knows gloss",
+                                        100 * sample.scatter, nameOf(method))});
     }
     // What consensus itself is unsure of says nothing against another method.
     if (!knowsGloss && difference > kLargestDifference + sample.instability) {
-        warnings.push_back(fmt::format("warning: normals by {} and by consensus are {:.1f} degrees apart in the mean: "
-                                       "gloss or shadows are taken for shading; consensus or exemplar are safer",
-                                       nameOf(method), difference));
+        warnings.push_back({FindingCode::methodsDisagree,
+                            fmt::format("normals by {} and by consensus are {:.1f} degrees apart in the mean: "
+                                        "gloss or shadows are taken for shading; consensus or exemplar are safer",
+                                        nameOf(method), difference)});
     }
     if (knowsGloss && unexplained > kLargestUnexplained) {
-        warnings.push_back(fmt::format("warning: no reflectance explains the photographs to better than {:.0f} % of "
-                                       "their brightness: noise, wrong lights, or no one material",
-                                       100 * unexplained));
+        warnings.push_back(
+            {FindingCode::unexplained, fmt::format("no reflectance explains the photographs to better than {:.0f} % of "
+                                                   "their brightness: noise, wrong lights, or no one material",
+                                                   100 * unexplained)});
     }
     return warnings;
 }

@@ -2,6 +2,7 @@
 #include <string>
 #include <vector>
 
+#include "acquisition/capture/finding.h"
 #include "acquisition/capture/observations.h"
 #include "acquisition/normals/normals.h"
 
@@ -15,15 +16,15 @@ struct CheckedSample {
     NormalBlock consensus;
     double scatter = 0; // from Lambert's law, see matte_scatter.h
     double instability = 0;
+    std::vector<Finding> findings;
 };
 
-// `width`: of the grid that the sample's pixels count in; 0 where it is not known. Each warning ("warning: ...") names
-// what is likely wrong with the photographs or lights, and what to do; docs/stability.md lists them.
+// `width`: of the grid that the sample's pixels count in; 0 where it is not known. Each finding names what is
+// likely wrong with the photographs or lights, and what to do; docs/limitations.md lists them.
 CheckedSample checkCapture(const Observations& sample, int width, const std::vector<Light>& lights,
-                           const NormalOptions& options, std::vector<std::string>& warnings);
+                           const NormalOptions& options);
 
 // What is to be said of a method's normals, once it is known which method was taken.
-std::vector<std::string> methodWarnings(const CheckedSample& sample, NormalMethod method,
-                                        const NormalEstimator& estimator);
+std::vector<Finding> methodWarnings(const CheckedSample& sample, NormalMethod method, const NormalEstimator& estimator);
 
 } // namespace nacre

@@ -138,7 +138,7 @@ Ranking rankReflectances(const std::vector<PredictedBall>& balls, const FewPixel
 
 ExemplarModel makeExemplarModel(const Intensities& sample, const std::vector<glm::vec3>& starts,
                                 const std::vector<Light>& lights, const NormalOptions& options,
-                                std::vector<std::string>& remarks)
+                                std::vector<Finding>& findings)
 {
     const std::vector<NamedBrdf> dictionary =
         makeReflectanceDictionary(options.fitsFolder, options.excludedReflectances);
@@ -164,11 +164,13 @@ ExemplarModel makeExemplarModel(const Intensities& sample, const std::vector<glm
                                    makePredictedBall(kFineBallSize, directions, reflectanceOf(r), options.threads),
                                    ranking.trials[r].scales});
     }
-    remarks.push_back(fmt::format(
-        "exemplars: {} reflectances; {} explains the object best (cost {:.3f}), searched {:.0f} degrees around",
-        dictionary.size(), model.exemplars.front().name, ranking.trials[ranking.order.front()].cost,
-        ranking.radiusDegrees));
-    reestimate(model, sample, starts, lights, options.threads, remarks);
+    findings.push_back(
+        {FindingCode::reflectanceChosen,
+         fmt::format(
+             "exemplars: {} reflectances; {} explains the object best (cost {:.3f}), searched {:.0f} degrees around",
+             dictionary.size(), model.exemplars.front().name, ranking.trials[ranking.order.front()].cost,
+             ranking.radiusDegrees)});
+    reestimate(model, sample, starts, lights, options.threads, findings);
     return model;
 }
 

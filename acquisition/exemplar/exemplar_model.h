@@ -48,10 +48,10 @@ double predictionCost(const Exemplar& exemplar, const Intensities& intensities, 
                       const std::vector<float>& judged);
 
 // Chooses the reflectances, then re-estimates with the object's own BRDF while the error on held-out lights falls.
-// Remarks say what was chosen.
+// Findings say what was chosen.
 ExemplarModel makeExemplarModel(const Intensities& sample, const std::vector<glm::vec3>& starts,
                                 const std::vector<Light>& lights, const NormalOptions& options,
-                                std::vector<std::string>& remarks);
+                                std::vector<Finding>& findings);
 
 // A pixel to be matched; its residuals are truncated at a share of its own bright level.
 MatchTarget targetOf(const Intensities& intensities, size_t pixel, const std::vector<float>& weights);

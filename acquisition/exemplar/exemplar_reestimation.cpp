@@ -38,7 +38,7 @@ bool addRound(ExemplarModel& model, const Intensities& sample, const ExemplarRes
 } // namespace
 
 void reestimate(ExemplarModel& model, const Intensities& sample, const std::vector<glm::vec3>& starts,
-                const std::vector<Light>& lights, int threads, std::vector<std::string>& remarks)
+                const std::vector<Light>& lights, int threads, std::vector<Finding>& findings)
 {
     std::vector<float> kept, heldOut;
     splitLights(lights.size(), kept, heldOut);
@@ -63,9 +63,11 @@ void reestimate(ExemplarModel& model, const Intensities& sample, const std::vect
         cost = next;
     }
     if (rounds > 0) {
-        remarks.push_back(fmt::format(
-            "re-estimated {} time(s) with the object's own BRDF: error on {} held-out lights {:.4f} -> {:.4f}", rounds,
-            countOf(heldOut), first, cost));
+        findings.push_back(
+            {FindingCode::reflectanceMeasured,
+             fmt::format(
+                 "re-estimated {} time(s) with the object's own BRDF: error on {} held-out lights {:.4f} -> {:.4f}",
+                 rounds, countOf(heldOut), first, cost)});
     }
     // The same number of rounds with every light.
     const std::vector<float> all = allLights(lights.size());

@@ -9,7 +9,7 @@ NormalEstimator makeNormalEstimator(const Intensities& sample, const std::vector
                                     const NormalOptions& options, NormalReport& report)
 {
     report.method = options.method == NormalMethod::automatic
-                        ? selectNormalMethod(sample, lights, options, report.remarks)
+                        ? selectNormalMethod(sample, lights, options, report.findings)
                         : options.method;
     switch (report.method) {
     case NormalMethod::leastSquares:
@@ -21,7 +21,7 @@ NormalEstimator makeNormalEstimator(const Intensities& sample, const std::vector
     case NormalMethod::ransac:
         return makeRansacEstimator(lights, options);
     case NormalMethod::exemplar:
-        return makeExemplarEstimator(sample, lights, options, report.remarks);
+        return makeExemplarEstimator(sample, lights, options, report.findings);
     case NormalMethod::automatic:
     case NormalMethod::consensus:
         break;

@@ -73,8 +73,8 @@ std::vector<float> weightsOf(const std::vector<size_t>& chosen, size_t lights)
     return weights;
 }
 
-// The mean square of what the predictions miss, each truncated at kSelectionLimitShare of the pixel's bright level and in units
-// of it: [0,1].
+// The mean square of what the predictions miss, each truncated at kSelectionLimitShare of the pixel's bright level and
+// in units of it: [0,1].
 double squaredCost(const std::vector<float>& column, std::span<const float> observed, const std::vector<float>& judged,
                    float scale)
 {
@@ -139,14 +139,15 @@ double heldOutError(NormalMethod method, const Intensities& sample, const std::v
 } // namespace
 
 NormalMethod selectNormalMethod(const Intensities& sample, const std::vector<Light>& lights,
-                                const NormalOptions& options, std::vector<std::string>& remarks)
+                                const NormalOptions& options, std::vector<Finding>& findings)
 {
     const Split split = splitLights(lights);
     const bool few = lights.size() < kFewestLights;
     if (few || conditionOf(split.keptLights) > kWorstCondition || sample.pixelCount() == 0) {
-        remarks.push_back(
-            few ? fmt::format("auto: consensus, since {} lights are too few to hold any out", lights.size())
-                : "auto: consensus, since the lights lie too nearly in one plane to hold any out");
+        findings.push_back(
+            {FindingCode::methodChosen,
+             few ? fmt::format("auto: consensus, since {} lights are too few to hold any out", lights.size())
+                 : "auto: consensus, since the lights lie too nearly in one plane to hold any out"});
         return NormalMethod::consensus;
     }
     const Intensities thinned = everyNthPixel(sample);
@@ -161,11 +162,12 @@ NormalMethod selectNormalMethod(const Intensities& sample, const std::vector<Lig
             bestError = error;
         }
     }
-    remarks.push_back(
-        fmt::format("auto: {}, by the error on {} held-out lights: {}", nameOf(best), split.heldOut.size(), errors));
+    findings.push_back({FindingCode::methodChosen, fmt::format("auto: {}, by the error on {} held-out lights: {}",
+                                                               nameOf(best), split.heldOut.size(), errors)});
     if (bestError > kUnexplained) {
-        remarks.push_back(
-            "warning: no method explains this object (a mirror? wrong lights?); the normals are not to be trusted");
+        findings.push_back(
+            {FindingCode::noMethod,
+             "no method explains this object (a mirror? wrong lights?); the normals are not to be trusted"});
         best = NormalMethod::exemplar;
     }
     return best;

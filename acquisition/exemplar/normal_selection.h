@@ -8,6 +8,6 @@ namespace nacre {
 // truncated error of its predictions counts. A tie goes to the simplest Lambertian method, and to the exemplars before
 // any of those.
 NormalMethod selectNormalMethod(const Intensities& sample, const std::vector<Light>& lights,
-                                const NormalOptions& options, std::vector<std::string>& remarks);
+                                const NormalOptions& options, std::vector<Finding>& findings);
 
 } // namespace nacre

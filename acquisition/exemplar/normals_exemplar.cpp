@@ -84,14 +84,14 @@ void fillPixels(const ExemplarSetup& setup, const Intensities& intensities, cons
 } // namespace
 
 NormalEstimator makeExemplarEstimator(const Intensities& sample, const std::vector<Light>& lights,
-                                      const NormalOptions& options, std::vector<std::string>& remarks)
+                                      const NormalOptions& options, std::vector<Finding>& findings)
 {
     const auto setup = std::make_shared<ExemplarSetup>();
     setup->lights = lights;
     setup->weights = allLights(lights.size());
     setup->threads = options.threads;
     setup->consensus = makeConsensusEstimator(lights, options);
-    setup->model = makeExemplarModel(sample, startsOf(setup->consensus(sample)), lights, options, remarks);
+    setup->model = makeExemplarModel(sample, startsOf(setup->consensus(sample)), lights, options, findings);
     return [setup](const Intensities& intensities) {
         const std::vector<glm::vec3> starts = startsOf(setup->consensus(intensities));
         const ExemplarResult result = matchBlock(setup->model, intensities, starts, setup->weights, setup->threads);

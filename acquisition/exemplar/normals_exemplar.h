@@ -7,6 +7,6 @@ namespace nacre {
 // Sankaranarayanan, Shape and Spatially-Varying Reflectance Estimation from Virtual Exemplars, 2017, with a residual
 // that forgets cast shadows and a start from the triple consensus. `sample`: pixels from all over the object.
 NormalEstimator makeExemplarEstimator(const Intensities& sample, const std::vector<Light>& lights,
-                                      const NormalOptions& options, std::vector<std::string>& remarks);
+                                      const NormalOptions& options, std::vector<Finding>& findings);
 
 } // namespace nacre

@@ -94,7 +94,7 @@ void addIrradiances(const Capture& capture, const CalibrationOptions& options, R
         shading.push_back(readings[i].shadingDirection);
     }
     if (const auto warning = sphereWarning(known, shading)) {
-        rig.warnings.push_back(*warning);
+        rig.warnings.push_back({FindingCode::spheresDisagree, *warning});
     }
     if (!capture.irradianceGiven) {
         for (size_t i = 0; i < readings.size(); ++i) {
@@ -115,9 +115,11 @@ void warnOfNearLights(const Capture& capture, Rig& rig)
     const double degrees = glm::degrees(std::atan2(*capture.objectWidth / 2, *capture.lightDistance));
     if (degrees > kLargestTurn) {
         rig.warnings.push_back(
-            fmt::format("the lights are not distant: with a width of {:g} at a distance of {:g}, their directions turn "
-                        "by {:.1f} degrees from the object's middle to its edge ({:.0f} are harmless)",
-                        *capture.objectWidth, *capture.lightDistance, degrees, kLargestTurn));
+            {FindingCode::lightsNear,
+             fmt::format(
+                 "the lights are not distant: with a width of {:g} at a distance of {:g}, their directions turn "
+                 "by {:.1f} degrees from the object's middle to its edge ({:.0f} are harmless)",
+                 *capture.objectWidth, *capture.lightDistance, degrees, kLargestTurn)});
     }
 }
 
@@ -135,20 +137,22 @@ double conditionOf(const std::vector<Light>& lights)
     return smallest > 0 ? singular(0) / smallest : std::numeric_limits<double>::infinity();
 }
 
-std::vector<std::string> warningsOf(const std::vector<Light>& lights)
+std::vector<Finding> warningsOf(const std::vector<Light>& lights)
 {
-    std::vector<std::string> warnings;
+    std::vector<Finding> warnings;
     const double condition = conditionOf(lights), degrees = glm::degrees(std::atan(kUsualError * condition));
     if (degrees >= kLargestError) {
         warnings.push_back(
-            fmt::format("warning: the lights lie nearly in one plane or close together (condition {:.0f}): an error of "
-                        "{:.0f} % in the photographs turns normals by up to {:.0f} degrees",
-                        condition, 100 * kUsualError, degrees));
+            {FindingCode::lightsIllPlaced,
+             fmt::format("the lights lie nearly in one plane or close together (condition {:.0f}): an error of "
+                         "{:.0f} % in the photographs turns normals by up to {:.0f} degrees",
+                         condition, 100 * kUsualError, degrees)});
     }
     if (lights.size() < kFewestForOutliers) {
-        warnings.push_back(fmt::format("warning: with {} lights shadows and highlights cannot be told from shading; "
-                                       "{} or more can",
-                                       lights.size(), kFewestForOutliers));
+        warnings.push_back(
+            {FindingCode::fewLights, fmt::format("with {} lights shadows and highlights cannot be told from shading; "
+                                                 "{} or more can",
+                                                 lights.size(), kFewestForOutliers)});
     }
     return warnings;
 }

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "acquisition/capture/capture.h"
+#include "acquisition/capture/finding.h"
 #include "acquisition/lights/diffuse_sphere.h"
 
 namespace nacre {
@@ -21,8 +22,8 @@ struct Rig {
     std::vector<float>
         shadingDisagreement; // degrees per light between direction and the diffuse sphere's shading; empty without one
     float shadingOffset = 0; // constant that the diffuse sphere's photographs share, as radiance
-    std::vector<std::string> warnings; // for the user
-    std::string directionsFrom;        // for the user
+    std::vector<Finding> warnings;
+    std::string directionsFrom; // for the user
     std::string irradiancesFrom;
     bool absolute = false; // irradiance in units of which the BRDF comes out in 1/sr
     double condition = 0;  // of the matrix of directions: largest over smallest singular value
@@ -40,9 +41,9 @@ double requireSpanningLights(const std::vector<Light>& lights, const std::filesy
 // multiplied at worst in the normal. Infinite where the lights lie in one plane with the object.
 double conditionOf(const std::vector<Light>& lights);
 
-// "warning: ..." for each reason why normals from such lights are not to be trusted, whatever their residuals say:
+// Each reason why normals from such lights are not to be trusted, whatever their residuals say:
 // lights so nearly in one plane or so close together that an error of 1 % in the photographs, which few are below, can
 // turn normals by 4 degrees; too few to tell a shadow or a highlight from the surface's own shading.
-std::vector<std::string> warningsOf(const std::vector<Light>& lights);
+std::vector<Finding> warningsOf(const std::vector<Light>& lights);
 
 } // namespace nacre

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "acquisition/capture/finding.h"
 #include "acquisition/normals/intensities.h"
 #include "acquisition/normals/verdicts.h"
 
@@ -60,7 +61,7 @@ NormalEstimator makeConsensusEstimator(const std::vector<Light>& lights, const N
 // What a method that looks at the whole object found out, for the user.
 struct NormalReport {
     NormalMethod method = NormalMethod::automatic; // the one that was taken
-    std::vector<std::string> remarks;              // a line each
+    std::vector<Finding> findings;
     // Share of the mean, see lambertian_residual.h; NaN where nothing is lit.
     double lambertianResidual = std::numeric_limits<double>::quiet_NaN();
 };

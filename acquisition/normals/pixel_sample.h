@@ -1,14 +1,15 @@
 #pragma once
-#include "acquisition/capture/capture.h"
 #include "acquisition/capture/observations.h"
 
 namespace nacre {
 
-// A few thousand pixels spread evenly over what was seen of all of the mask; all of them where they are no more.
-Observations evenSample(const Observations& whole);
+// Every so many pixels are taken for a sample of a few thousand out of `pixels`.
+size_t sampleStep(size_t pixels);
 
-// A few thousand pixels spread evenly over the whole mask, for methods that look at the object before its pixels.
-// `first` is the capture's first block; a capture of more blocks is read once for the sample.
-Observations samplePixels(const Capture& capture, const Observations& first, int threads, size_t byteBudget);
+// Adds the block's pixels whose number, counted from that of its first, is a multiple of `step`.
+void addToSample(const Observations& block, size_t firstNumber, size_t step, Observations& sample);
+
+// A few thousand pixels spread evenly over what was seen; all of them where they are no more.
+Observations evenSample(const Observations& whole);
 
 } // namespace nacre

@@ -36,27 +36,27 @@ std::string whyNoLayer(const std::vector<Light>& lights, const std::vector<glm::
 }
 
 // Rows of an even sample of the shaded pixels.
-ResidualRows sampleRows(const Surface& surface, const EachBlock& eachBlock, size_t shaded, size_t most)
+ResidualRows sampleRows(const Surface& surface, ObservationBlocks& blocks, size_t shaded, size_t most)
 {
     const size_t stride = std::max<size_t>(1, (shaded + most - 1) / most);
     const LightBalls tables(surface, 0, 1);
     size_t seen = 0;
     ResidualRows all;
-    eachBlock([&](const Observations& block) {
+    while (const Observations* block = blocks.next()) {
         std::vector<size_t> places;
-        for (const size_t place : shadedPlaces(block, surface)) {
+        for (const size_t place : shadedPlaces(*block, surface)) {
             if (seen++ % stride == 0) {
                 places.push_back(place);
             }
         }
-        const ResidualRows rows = residualRows(block, places, surface, tables);
+        const ResidualRows rows = residualRows(*block, places, surface, tables);
         const Eigen::Index before = all.observed.rows();
         all.observed.conservativeResize(before + rows.observed.rows(), rows.observed.cols());
         all.predicted.conservativeResizeLike(all.observed);
         all.pixels.insert(all.pixels.end(), rows.pixels.begin(), rows.pixels.end());
         all.observed.bottomRows(rows.observed.rows()) = rows.observed;
         all.predicted.bottomRows(rows.predicted.rows()) = rows.predicted;
-    });
+    }
     return all;
 }
 
@@ -110,10 +110,10 @@ size_t shadedPixels(const Surface& surface)
 
 } // namespace
 
-ResidualLayer estimateResidual(const Surface& surface, const ResidualOptions& options, const EachBlock& eachBlock,
-                               ResidualReport& report)
+EstimatedResidual estimateResidual(const Surface& surface, const ResidualOptions& options, ObservationBlocks& blocks)
 {
-    report = ResidualReport();
+    EstimatedResidual result;
+    ResidualReport& report = result.report;
     report.choice = options.choice;
     std::vector<Light> lights;
     std::vector<glm::vec2> nodes;
@@ -128,9 +128,9 @@ ResidualLayer estimateResidual(const Surface& surface, const ResidualOptions& op
     }
     const size_t pixels = shadedPixels(surface);
     if (!report.whyNot.empty() || options.choice == ResidualChoice::none || pixels == 0) {
-        return {};
+        return result;
     }
-    const ResidualRows rows = sampleRows(surface, eachBlock, pixels, samplePixels(lights.size()));
+    const ResidualRows rows = sampleRows(surface, blocks, pixels, samplePixels(lights.size()));
     const ResidualJudge judge(rows, lights, peakOf(rows, lights));
     report.fit = chooseResidualFit(rows, lights, judge, options.choice);
     const size_t each = bytesPerComponent(pixels, lights.size());
@@ -141,15 +141,18 @@ ResidualLayer estimateResidual(const Surface& surface, const ResidualOptions& op
         report.whyNot = fmt::format("a component takes {} bytes, {} may be used", each, options.budgetBytes);
     }
     if (!report.fit.isKept) {
-        return {};
+        return result;
     }
     const Eigen::MatrixXf basis = chooseComponents(rows, judge, options.toleranceDecibels,
                                                    std::min<size_t>(afforded, kMostResidualComponents), report);
     report.bytes = each * static_cast<size_t>(report.components);
     const LightBalls balls = quickBalls(surface, rows, judge, report.fit, pixels, options.threads);
     ResidualEncoder encoder(surface, balls, nodes, report.fit, rows, basis);
-    eachBlock([&](const Observations& block) { encoder.encode(block, options.threads); });
-    return std::move(encoder.layer);
+    while (const Observations* block = blocks.next()) {
+        encoder.encode(*block, options.threads);
+    }
+    result.layer = std::move(encoder.layer);
+    return result;
 }
 
 } // namespace nacre

@@ -37,14 +37,11 @@ std::string overview(const ReportSubject& subject)
          {"normals by", nameOf(estimate.report.method)},
          {"scale of the BRDF", absolute ? "absolute, 1/sr" : "relative, up to one factor"},
          {"seconds", fmt::format("{:.1f}", seconds)}});
-    for (const std::string& warning : estimate.rig.warnings) {
-        html += paragraph("Warning: " + warning, "warning");
-    }
-    for (const std::string& name : estimate.leftOut) {
-        html += paragraph("Left out, since the other photographs contradict it: " + name, "warning");
-    }
-    for (const std::string& remark : estimate.report.remarks) {
-        html += paragraph(remark);
+    for (const auto* findings : {&estimate.rig.warnings, &estimate.report.findings}) {
+        for (const Finding& finding : *findings) {
+            const bool standsOut = isWarning(finding.code) || finding.code == FindingCode::photographsLeftOut;
+            html += paragraph(lineOf(finding), standsOut ? "warning" : "");
+        }
     }
     return html;
 }

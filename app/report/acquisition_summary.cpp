@@ -30,6 +30,19 @@ double azimuthDegrees(const glm::vec3& d)
     return glm::degrees(std::atan2(d.y, d.x));
 }
 
+// Of the lights and of the normals.
+Json jsonOf(const NormalEstimate& estimate)
+{
+    Json list = Json::array();
+    for (const auto* findings : {&estimate.rig.warnings, &estimate.report.findings}) {
+        for (const Finding& finding : *findings) {
+            list.push_back(
+                {{"code", nameOf(finding.code)}, {"warning", isWarning(finding.code)}, {"text", finding.text}});
+        }
+    }
+    return list;
+}
+
 double measuredShare(const BrdfTable& table)
 {
     const auto covered =
@@ -122,8 +135,8 @@ std::string describe(const Capture& capture, const Rig& rig)
             *std::max_element(rig.shadingDisagreement.begin(), rig.shadingDisagreement.end()));
         text += fmt::format("beneath its shading lies an offset of {:.4f}\n", rig.shadingOffset);
     }
-    for (const std::string& warning : rig.warnings) {
-        text += fmt::format("warning: {}\n", warning);
+    for (const Finding& warning : rig.warnings) {
+        text += lineOf(warning) + "\n";
     }
     return text;
 }
@@ -177,8 +190,8 @@ std::string describeNormals(const Capture& capture, const NormalEstimate& estima
     std::string text = fmt::format("\nnormals      {} by {}, {} pixels without one\n",
                                    capture.maskPixels - estimate.pixelsWithoutNormal, nameOf(estimate.report.method),
                                    estimate.pixelsWithoutNormal);
-    for (const std::string& remark : estimate.report.remarks) {
-        text += fmt::format("             {}\n", remark);
+    for (const Finding& finding : estimate.report.findings) {
+        text += fmt::format("             {}\n", lineOf(finding));
     }
     if (estimate.pixelsSmoothed > 0) {
         text += fmt::format("smoothed in  {} pixels that the capture marks\n", estimate.pixelsSmoothed);
@@ -263,7 +276,7 @@ Json summaryOf(const Capture& capture, const NormalEstimate& estimate)
                  {"irradiancesFrom", rig.irradiancesFrom},
                  {"conditionNumber", rig.condition},
                  {"normals", nameOf(estimate.report.method)},
-                 {"remarks", estimate.report.remarks},
+                 {"findings", jsonOf(estimate)},
                  {"pixelsWithoutNormal", estimate.pixelsWithoutNormal},
                  {"pixelsSmoothed", estimate.pixelsSmoothed},
                  {"lambertianResidual", estimate.report.lambertianResidual}, // null where nothing is lit

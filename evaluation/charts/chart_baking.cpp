@@ -19,13 +19,10 @@ Segmentation segmentationOfCapture(const Capture& capture)
 
 ChartBaking::ChartBaking(const Capture& capture, const AcquireOptions& options, const Progress& progress)
     : capture_(capture), options_(options), segmentation_(segmentationOfCapture(capture)),
-      walk_(capture, options, progress, estimate_), firstAlbedo_(capture.width, capture.height, 3),
-      samples_(segmentation_, options, counts_)
+      prepared_(prepareCapture(capture, options, clock_, progress)),
+      found_(estimateAndSample(prepared_, capture, segmentation_, options, clock_, progress))
 {
-    walk_.estimate(segmentation_, [&](const Observations& block, const NormalBlock& normals) {
-        samples_.gather(block, normals, estimate_.rig.lights, firstAlbedo_);
-    });
-    surface_.normals = estimate_.normals;
+    surface_.normals = found_.estimate.normals;
     surface_.labels = segmentation_.labels;
     for (size_t i = 0; i < surface_.labels.size(); ++i) {
         if (surface_.normals.confidence[i] <= 0) {
@@ -40,11 +37,12 @@ Surface ChartBaking::bake(const BrdfSetting& setting, double& seconds)
     interpolation.method = setting.interpolation;
     interpolation.k = setting.k;
     Surface surface = surface_;
+    const std::vector<BrdfSamples>& samples = found_.gathered.samples;
     const auto start = std::chrono::steady_clock::now();
-    for (size_t i = 0; i < samples_.samples.size(); ++i) {
+    for (size_t i = 0; i < samples.size(); ++i) {
         BakeOptions bake = options_.bake;
-        bake.size = chartTableSizes(tableSize(samples_.samples[i].domain))[setting.size];
-        BakedBrdf baked = bakeBrdf(samples_.samples[i], interpolation, bake);
+        bake.size = chartTableSizes(tableSize(samples[i].domain))[setting.size];
+        BakedBrdf baked = bakeBrdf(samples[i], interpolation, bake);
         surface.materials.push_back(
             {segmentation_.regions[i].name, std::move(baked.table), std::move(baked.coverage), {}});
     }
@@ -53,11 +51,11 @@ Surface ChartBaking::bake(const BrdfSetting& setting, double& seconds)
     for (Material& material : surface.materials) {
         tables.push_back(&material.table);
     }
-    surface.albedo = firstAlbedo_;
-    walk_.revisit([&](const Observations& block) {
-        refitAlbedo(block, estimate_.normals, estimate_.rig.lights, segmentation_.labels, tables, options_.bake.threads,
-                    surface.albedo);
-    });
+    surface.albedo = found_.gathered.albedo;
+    while (const Observations* block = prepared_.blocks.next()) {
+        refitAlbedo(*block, found_.estimate.normals, prepared_.rig.lights, segmentation_.labels, tables,
+                    options_.bake.threads, surface.albedo);
+    }
     finishAlbedo(capture_, segmentation_.labels, tables, surface.albedo);
     return surface;
 }

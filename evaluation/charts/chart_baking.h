@@ -1,6 +1,5 @@
 #pragma once
 #include "acquisition/chain/acquire.h"
-#include "acquisition/chain/material_samples.h"
 #include "evaluation/charts/chart_settings.h"
 
 namespace nacre {
@@ -18,11 +17,9 @@ private:
     const Capture& capture_;
     const AcquireOptions& options_;
     Segmentation segmentation_;
-    NormalEstimate estimate_;
-    CaptureWalk walk_;
-    Image firstAlbedo_;
-    SampleCounts counts_;
-    MaterialSamples samples_;
+    StageClock clock_;
+    PreparedCapture prepared_;
+    NormalsAndSamples found_;
     Surface surface_; // without materials
 };
 

@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "acquisition/chain/prepared_normals.h"
+#include "acquisition/chain/reconciled_photographs.h"
 #include "acquisition/normals/light_triples.h"
 #include "acquisition/normals/pixel_sample.h"
 #include "engine/files/measures.h"
@@ -40,16 +40,13 @@ double percentile99(const Observations& all, bool grey)
 // from the others says nothing of a method.
 Rig reconciledRig(const Capture& capture, Rig rig, const Observations& all, const AcquireOptions& options)
 {
-    CaptureSample sample{samplePixels(capture, all, options.normals.threads, options.byteBudget),
-                         {},
-                         capture.irradianceGiven || capture.diffuseSphere.has_value(),
-                         rig.lights};
+    CaptureSample sample{evenSample(all), {}, capture.irradianceGiven || capture.diffuseSphere.has_value(), rig.lights};
     for (const Photograph& photograph : capture.photographs) {
         sample.photographs.push_back(photograph.name);
     }
-    const PreparedNormals prepared = preparePhotographs(sample, options);
-    for (size_t i = 0; i < prepared.agreeing.size(); ++i) {
-        rig.lights[prepared.agreeing[i]] = prepared.lights[i];
+    const ReconciledPhotographs reconciled = reconcilePhotographs(std::move(sample), options);
+    for (size_t i = 0; i < reconciled.agreeing.size(); ++i) {
+        rig.lights[reconciled.agreeing[i]] = reconciled.sample.lights[i];
     }
     return rig;
 }

@@ -104,7 +104,9 @@ void keepWords(const TimedEstimate& timed, StressRow& row)
         return;
     }
     row.said = timed.estimate->warnings.empty() ? Said::nothing : Said::warning;
-    row.warnings = fmt::format("{}", fmt::join(timed.estimate->warnings, "; "));
+    for (const Finding& warning : timed.estimate->warnings) {
+        row.warnings += (row.warnings.empty() ? "" : "; ") + lineOf(warning);
+    }
 }
 
 StressRow normalRow(const TimedEstimate& timed, const PhotographedObject& object, NormalMethod method)
@@ -117,8 +119,8 @@ StressRow normalRow(const TimedEstimate& timed, const PhotographedObject& object
     return row;
 }
 
-StressRow brdfRow(const TimedEstimate& timed, const PhotographedObject& undegraded, InterpolationMethod method,
-                  const AcquireOptions& options)
+StressRow brdfRow(const TimedEstimate& timed, const Preparation& preparation, const PhotographedObject& undegraded,
+                  InterpolationMethod method, const AcquireOptions& options)
 {
     StressRow row;
     row.method = "brdf-" + nameOf(method);
@@ -130,7 +132,7 @@ StressRow brdfRow(const TimedEstimate& timed, const PhotographedObject& undegrad
     const auto start = std::chrono::steady_clock::now();
     try {
         if (timed.estimate) {
-            const BrdfError error = brdfError(*timed.estimate, undegraded, chosen);
+            const BrdfError error = brdfError(*preparation.photographs, timed.estimate->block, undegraded, chosen);
             row.error = error.percent;
             row.meanConfidence = error.meanConfidence;
         }
@@ -157,8 +159,8 @@ std::vector<StressRow> rowsOf(const StressSubject& subject, const PhotographedOb
         const TimedEstimate timed = timedEstimate(object, preparation, method, options);
         rows.push_back(normalRow(timed, object, method));
         if (method == NormalMethod::automatic) {
-            rows.push_back(brdfRow(timed, undegraded, InterpolationMethod::localLinear, options));
-            rows.push_back(brdfRow(timed, undegraded, InterpolationMethod::paper, options));
+            rows.push_back(brdfRow(timed, preparation, undegraded, InterpolationMethod::localLinear, options));
+            rows.push_back(brdfRow(timed, preparation, undegraded, InterpolationMethod::paper, options));
         }
     }
     for (StressRow& row : rows) {

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "acquisition/chain/acquire_options.h"
+#include "acquisition/chain/block_walk.h"
 #include "engine/files/measures.h"
 #include "evaluation/stress/normal_sweeps.h"
 

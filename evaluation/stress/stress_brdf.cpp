@@ -19,13 +19,13 @@ constexpr float kLeastCosine = 0.1f; // as samples are taken
 // Below this share of the pixel's bright level an observation is in a cast shadow, of which no BRDF knows.
 constexpr float kLitShare = 0.25f;
 
-BrdfTable bakedTable(const StressEstimate& estimate, const AcquireOptions& options)
+BrdfTable bakedTable(const StressPhotographs& photographs, const NormalBlock& normals, const AcquireOptions& options)
 {
-    const std::vector<Light>& lights = estimate.prepared.lights;
+    const std::vector<Light>& lights = photographs.reconciled.sample.lights;
     BrdfSamples samples;
     samples.domain = tableDomain(lights, options.bake);
     SampleCounts counts;
-    gatherSamples(estimate.seen, estimate.block, albedoFactors(estimate.seen, estimate.block, lights), lights, 1,
+    gatherSamples(photographs.seen, normals, albedoFactors(photographs.seen, normals, lights), lights, 1,
                   options.samples, samples, counts);
     return bakeBrdf(samples, options.interpolation, options.bake).table;
 }
@@ -64,9 +64,10 @@ void addPixel(const BrdfTable& table, const glm::vec3& normal, std::span<const g
 
 } // namespace
 
-BrdfError brdfError(const StressEstimate& estimate, const PhotographedObject& undegraded, const AcquireOptions& options)
+BrdfError brdfError(const StressPhotographs& photographs, const NormalBlock& normals,
+                    const PhotographedObject& undegraded, const AcquireOptions& options)
 {
-    const BrdfTable table = bakedTable(estimate, options);
+    const BrdfTable table = bakedTable(photographs, normals, options);
     ErrorSums sums;
     const size_t pixels = undegraded.seen.pixels.size(), step = pixels / kMostJudged + 1;
     for (size_t p = 0; p < pixels; p += step) {

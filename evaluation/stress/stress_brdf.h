@@ -13,7 +13,7 @@ struct BrdfError {
 // the undegraded photographs under their true lights and with their true normals: the sum of |prediction - photograph|
 // over that of the photographs, in percent. Lit observations count, and each pixel has the factor that suits it best,
 // as its albedo is not the material's.
-BrdfError brdfError(const StressEstimate& estimate, const PhotographedObject& undegraded,
-                    const AcquireOptions& options);
+BrdfError brdfError(const StressPhotographs& photographs, const NormalBlock& normals,
+                    const PhotographedObject& undegraded, const AcquireOptions& options);
 
 } // namespace nacre

@@ -25,31 +25,29 @@ NormalMap mapOf(const PhotographedObject& object, const NormalBlock& block)
 StressPhotographs preparedPhotographs(const PhotographedObject& object, const AcquireOptions& options)
 {
     requireSpanningLights(object.lights, object.name);
-    StressPhotographs photographs{
-        {evenSample(object.seen), object.photographs, object.irradiancesKnown, object.lights, object.width}, {}};
-    photographs.prepared = preparePhotographs(photographs.sample, options);
+    StressPhotographs photographs;
+    photographs.reconciled = reconcilePhotographs(
+        {evenSample(object.seen), object.photographs, object.irradiancesKnown, object.lights, object.width}, options);
+    const CaptureSample& sample = photographs.reconciled.sample;
+    photographs.checked = checkCapture(sample.seen, sample.width, sample.lights, options.normals);
+    photographs.seen = selectLights(object.seen, photographs.reconciled.agreeing);
     return photographs;
 }
 
 StressEstimate estimateNormals(const PhotographedObject& object, const StressPhotographs& photographs,
                                const AcquireOptions& options)
 {
-    StressEstimate estimate;
-    estimate.prepared = photographs.prepared;
-    completeNormals(photographs.sample, options, estimate.prepared);
-    estimate.seen = selectLights(object.seen, estimate.prepared.agreeing);
-    estimate.block = estimateBlock(estimate.prepared.estimator, estimate.seen, estimate.prepared.lights);
+    const CaptureSample& sample = photographs.reconciled.sample;
+    const ChosenMethod chosen = chooseMethod(sample, photographs.checked, options.normals);
+    StressEstimate estimate{estimateBlock(chosen.estimators.front(), photographs.seen, sample.lights), {}};
     if (const auto warning = sphereWarning(directionsOf(object.lights), object.shadingDirections)) {
-        estimate.warnings.push_back("warning: " + *warning);
+        estimate.warnings.push_back({FindingCode::spheresDisagree, *warning});
     }
-    for (const std::string& warning : heightWarnings(mapOf(object, estimate.block))) {
-        estimate.warnings.push_back(warning);
-    }
-    for (const std::string& remark : estimate.prepared.report.remarks) {
-        if (remark.starts_with("warning:")) {
-            estimate.warnings.push_back(remark);
-        }
-    }
+    append(estimate.warnings, heightWarnings(mapOf(object, estimate.block)));
+    append(estimate.warnings, warningsOf(sample.lights));
+    append(estimate.warnings, photographs.checked.findings);
+    append(estimate.warnings, chosen.findings);
+    std::erase_if(estimate.warnings, [](const Finding& finding) { return !isWarning(finding.code); });
     return estimate;
 }
 

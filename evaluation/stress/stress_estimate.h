@@ -1,27 +1,25 @@
 #pragma once
-#include <string>
 #include <vector>
 
-#include "acquisition/chain/prepared_normals.h"
+#include "acquisition/chain/chosen_method.h"
 #include "evaluation/held_out/photographed_object.h"
 
 namespace nacre {
 
-// An object's photographs as the program takes them: without those that it left out, and the normals that it found.
-struct StressEstimate {
-    Observations seen;
-    PreparedNormals prepared;
-    NormalBlock block;
-    std::vector<std::string> warnings;
-};
-
-// Photographs after what does not depend on the method of normals.
+// An object's photographs after what does not depend on the method of normals.
 struct StressPhotographs {
-    CaptureSample sample;
-    PreparedNormals prepared;
+    ReconciledPhotographs reconciled;
+    CheckedSample checked;
+    Observations seen; // of the photographs in use
 };
 // Throws Error where the program refuses, as estimateNormals does.
 StressPhotographs preparedPhotographs(const PhotographedObject& object, const AcquireOptions& options);
+
+// The normals that the program finds, and what it warns of.
+struct StressEstimate {
+    NormalBlock block;
+    std::vector<Finding> warnings;
+};
 
 // The chain as `nacre normals` runs it, from the photographs on.
 StressEstimate estimateNormals(const PhotographedObject& object, const StressPhotographs& photographs,

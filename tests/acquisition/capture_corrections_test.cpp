@@ -236,7 +236,8 @@ TEST_F(CaptureCorrections, NearLightsAreWarnedOf)
     // atan(0.1 / 2) = 2.86 degrees, atan(0.06 / 2) = 1.72 degrees
     const auto near = warnings(R"("lightDistance": 2, "objectWidth": 0.2)");
     ASSERT_EQ(near.size(), 1u);
-    EXPECT_NE(near[0].find("2.9 degrees"), std::string::npos) << near[0];
+    EXPECT_EQ(near[0].code, FindingCode::lightsNear);
+    EXPECT_NE(near[0].text.find("2.9 degrees"), std::string::npos) << near[0].text;
     EXPECT_TRUE(warnings(R"("lightDistance": 2, "objectWidth": 0.12)").empty());
 }
 

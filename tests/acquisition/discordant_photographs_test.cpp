@@ -54,7 +54,7 @@ protected:
         const NormalEstimate with = estimate();
         ASSERT_EQ(with.leftOut, std::vector<std::string>{capture_.photographs[index].name});
         ASSERT_EQ(with.given.size(), 11u);
-        EXPECT_NE(with.report.remarks.at(0).find(with.leftOut[0]), std::string::npos);
+        EXPECT_NE(with.report.findings.at(0).text.find(with.leftOut[0]), std::string::npos);
         CaptureOptions options;
         options.skip = with.leftOut;
         const double given = errorOf(estimate(false));

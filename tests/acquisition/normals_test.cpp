@@ -98,7 +98,7 @@ TEST(Normals, SameBytesForOneAndTwoThreadsByEveryMethod)
         const NormalBlock a = makeNormalEstimator(intensities, lights, one, reportOne)(intensities);
         const NormalBlock b = makeNormalEstimator(intensities, lights, two, reportTwo)(intensities);
         EXPECT_EQ(a.verdicts, b.verdicts) << method;
-        EXPECT_EQ(reportOne.remarks, reportTwo.remarks) << method;
+        EXPECT_EQ(reportOne.findings, reportTwo.findings) << method;
         for (size_t p = 0; p < a.pixels.size(); ++p) {
             EXPECT_EQ(a.pixels[p].normal, b.pixels[p].normal) << method;
             EXPECT_EQ(a.pixels[p].confidence, b.pixels[p].confidence) << method;

@@ -227,12 +227,12 @@ TEST(ResidualEstimate, ShowsThePhotographsAgain)
     Surface surface = residualSurface(16);
     surface.residual = {};
     const Observations seen = shownBy(surface);
-    const auto each = [&](const auto& visit) { visit(seen); };
-    ResidualReport report;
+    ObservationBlocks blocks({seen});
     const ResidualOptions options{.choice = ResidualChoice::difference, .toleranceDecibels = 50, .threads = 1};
-    surface.residual = estimateResidual(surface, options, each, report);
+    EstimatedResidual estimated = estimateResidual(surface, options, blocks);
+    surface.residual = std::move(estimated.layer);
     ASSERT_FALSE(surface.residual.empty());
-    EXPECT_GE(report.capturedPsnr, 50);
+    EXPECT_GE(estimated.report.capturedPsnr, 50);
     for (size_t i = 0; i < surface.lights.size(); ++i) {
         const ResidualFrame frame = residualFrame(surface.residual, std::vector<Light>{surface.lights[i].light});
         for (size_t p = 0; p < seen.pixels.size(); ++p) {
@@ -252,21 +252,20 @@ TEST(ResidualEstimate, SameBytesForOneAndTwoThreadsAndAnyBlocks)
     surface.residual = {};
     const Observations whole = shownBy(surface);
     const auto inBlocks = [&](size_t size) {
-        return [&, size](const std::function<void(const Observations&)>& visit) {
-            for (size_t first = 0; first < whole.pixels.size(); first += size) {
-                const size_t last = std::min(first + size, whole.pixels.size()), n = whole.lightCount;
-                const auto from = [&](const auto& values, size_t each) {
-                    return std::decay_t<decltype(values)>(values.begin() + static_cast<std::ptrdiff_t>(first * each),
-                                                          values.begin() + static_cast<std::ptrdiff_t>(last * each));
-                };
-                visit({n, from(whole.pixels, 1), from(whole.radiance, n), from(whole.saturated, n)});
-            }
-        };
+        std::vector<Observations> blocks;
+        for (size_t first = 0; first < whole.pixels.size(); first += size) {
+            const size_t last = std::min(first + size, whole.pixels.size()), n = whole.lightCount;
+            const auto from = [&](const auto& values, size_t each) {
+                return std::decay_t<decltype(values)>(values.begin() + static_cast<std::ptrdiff_t>(first * each),
+                                                      values.begin() + static_cast<std::ptrdiff_t>(last * each));
+            };
+            blocks.push_back({n, from(whole.pixels, 1), from(whole.radiance, n), from(whole.saturated, n)});
+        }
+        return ObservationBlocks(std::move(blocks));
     };
-    const auto layerOf = [&](int threads, size_t block) {
-        ResidualReport report;
-        return estimateResidual(surface, {.choice = ResidualChoice::difference, .threads = threads}, inBlocks(block),
-                                report);
+    const auto layerOf = [&](int threads, size_t size) {
+        ObservationBlocks blocks = inBlocks(size);
+        return estimateResidual(surface, {.choice = ResidualChoice::difference, .threads = threads}, blocks).layer;
     };
     const ResidualLayer one = layerOf(1, 1024), two = layerOf(2, 1024), small = layerOf(2, 100);
     EXPECT_EQ(one.codes, two.codes);
@@ -279,14 +278,17 @@ TEST(ResidualEstimate, BudgetsAreKept)
     Surface surface = residualSurface(16);
     surface.residual = {};
     const Observations seen = shownBy(surface);
-    const auto each = [&](const auto& visit) { visit(seen); };
-    ResidualReport report;
+    ObservationBlocks blocks({seen});
     const size_t budget = 2 * (16 * 16 + 12 * sizeof(glm::vec3));
-    estimateResidual(surface, {.choice = ResidualChoice::difference, .budgetBytes = budget, .threads = 1}, each,
-                     report);
-    EXPECT_LE(report.bytes, budget);
-    EXPECT_LE(report.components, 2);
-    estimateResidual(surface, {.choice = ResidualChoice::difference, .budgetBytes = 10, .threads = 1}, each, report);
+    const auto reportOf = [&](size_t bytes) {
+        return estimateResidual(surface, {.choice = ResidualChoice::difference, .budgetBytes = bytes, .threads = 1},
+                                blocks)
+            .report;
+    };
+    const ResidualReport kept = reportOf(budget);
+    EXPECT_LE(kept.bytes, budget);
+    EXPECT_LE(kept.components, 2);
+    const ResidualReport report = reportOf(10);
     EXPECT_EQ(report.components, 0);
     EXPECT_NE(report.whyNot.find("10 may be used"), std::string::npos) << report.whyNot;
 }
@@ -297,18 +299,18 @@ TEST(ResidualEstimate, LightsThatCannotTellAreNamed)
     Surface surface = residualSurface();
     surface.residual = {};
     surface.lights.resize(5);
-    const auto none = [](const auto&) {};
-    ResidualReport report;
-    EXPECT_TRUE(estimateResidual(surface, {.choice = ResidualChoice::automatic}, none, report).empty());
-    EXPECT_NE(report.whyNot.find("5 lights"), std::string::npos) << report.whyNot;
-    expectError([&] { estimateResidual(surface, {.choice = ResidualChoice::difference}, none, report); }, {"5 lights"});
+    ObservationBlocks none(std::vector<Observations>{});
+    EstimatedResidual estimated = estimateResidual(surface, {.choice = ResidualChoice::automatic}, none);
+    EXPECT_TRUE(estimated.layer.empty());
+    EXPECT_NE(estimated.report.whyNot.find("5 lights"), std::string::npos) << estimated.report.whyNot;
+    expectError([&] { estimateResidual(surface, {.choice = ResidualChoice::difference}, none); }, {"5 lights"});
     surface.lights.clear();
     for (int i = 0; i < 8; ++i) {
         const glm::vec3 l(0.1f * static_cast<float>(i) - 0.4f, 0, 1);
         surface.lights.push_back({std::to_string(i), {glm::normalize(l), {1, 1, 1}}});
     }
-    estimateResidual(surface, {.choice = ResidualChoice::automatic}, none, report);
-    EXPECT_NE(report.whyNot.find("line"), std::string::npos) << report.whyNot;
+    estimated = estimateResidual(surface, {.choice = ResidualChoice::automatic}, none);
+    EXPECT_NE(estimated.report.whyNot.find("line"), std::string::npos) << estimated.report.whyNot;
 }
 
 // A photograph that is black, and two under the same light: what comes out stays finite and not brighter than all.
@@ -321,9 +323,8 @@ TEST(ResidualEstimate, BlackAndEqualPhotographsStayBounded)
     for (size_t p = 0; p < seen.pixels.size(); ++p) {
         seen.radiance[p * seen.lightCount + 5] = glm::vec3(0);
     }
-    ResidualReport report;
-    surface.residual = estimateResidual(
-        surface, {.choice = ResidualChoice::difference, .threads = 1}, [&](const auto& visit) { visit(seen); }, report);
+    ObservationBlocks blocks({seen});
+    surface.residual = estimateResidual(surface, {.choice = ResidualChoice::difference, .threads = 1}, blocks).layer;
     for (const glm::vec3& direction : {glm::vec3(0, 0, 1), glm::vec3(1, 0, 0), glm::normalize(glm::vec3(1, 1, -1))}) {
         const ResidualFrame frame = residualFrame(surface.residual, std::vector<Light>{{direction, {1, 1, 1}}});
         for (size_t p = 0; p < seen.pixels.size(); ++p) {

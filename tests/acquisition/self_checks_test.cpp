@@ -24,46 +24,39 @@ const StressSubject& subject()
     return made;
 }
 
-std::vector<std::string> warningsAfter(const Degradation& degradation)
+std::vector<Finding> warningsAfter(const Degradation& degradation)
 {
     const PhotographedObject object = degraded(subject().clean, degradation);
-    std::vector<std::string> warnings;
-    checkCapture(object.seen, object.width, object.lights, {}, warnings);
-    return warnings;
+    return checkCapture(object.seen, object.width, object.lights, {}).findings;
 }
 
-bool isSaid(const std::vector<std::string>& warnings, const std::string& words)
-{
-    return std::any_of(warnings.begin(), warnings.end(),
-                       [&](const std::string& warning) { return warning.find(words) != std::string::npos; });
-}
-
-TEST(SelfChecks, AGoodCaptureHearsNothing)
+TEST(SelfChecks, NothingIsFoundInAGoodCapture)
 {
     Degradation little;
     little.noise = 0.005;
     little.bits = 8;
     little.directionErrorDegrees = 0.5;
     little.irradianceError = 0.01;
-    const std::vector<std::string> warnings = warningsAfter(little);
-    EXPECT_TRUE(warnings.empty()) << warnings.front();
+    const std::vector<Finding> warnings = warningsAfter(little);
+    EXPECT_TRUE(warnings.empty()) << warnings.front().text;
 }
 
 TEST(SelfChecks, EachDefectIsNamed)
 {
-    const auto expectSaid = [](auto member, double value, const std::string& words) {
+    const auto expectSaid = [](auto member, double value, FindingCode code) {
         Degradation degradation;
         degradation.noise = 0.002;
         degradation.*member = value;
-        const std::vector<std::string> warnings = warningsAfter(degradation);
-        EXPECT_TRUE(isSaid(warnings, words)) << words << ", but: " << (warnings.empty() ? "" : warnings.front());
+        const std::vector<Finding> warnings = warningsAfter(degradation);
+        EXPECT_TRUE(contains(warnings, code))
+            << nameOf(code) << ", but: " << (warnings.empty() ? "" : warnings.front().text);
     };
-    expectSaid(&Degradation::transferExponent, 2.2, "a transfer curve is left in them");
-    expectSaid(&Degradation::transferExponent, 1 / 2.2, "was taken from them that they did not have");
-    expectSaid(&Degradation::nearWidths, 4, "the lights are not distant");
-    expectSaid(&Degradation::directionErrorDegrees, 6, "contradict the directions");
-    expectSaid(&Degradation::overexposedShare, 0.35, "clipped");
-    expectSaid(&Degradation::shadowShare, 0.3, "is dark");
+    expectSaid(&Degradation::transferExponent, 2.2, FindingCode::transferCurveLeft);
+    expectSaid(&Degradation::transferExponent, 1 / 2.2, FindingCode::transferCurveTaken);
+    expectSaid(&Degradation::nearWidths, 4, FindingCode::lightsNear);
+    expectSaid(&Degradation::directionErrorDegrees, 6, FindingCode::directionsContradicted);
+    expectSaid(&Degradation::overexposedShare, 0.35, FindingCode::clipped);
+    expectSaid(&Degradation::shadowShare, 0.3, FindingCode::shadowed);
 }
 
 TEST(SelfChecks, LambertsMethodsAreDoubtedWhereGlossOrNoiseRules)
@@ -71,18 +64,16 @@ TEST(SelfChecks, LambertsMethodsAreDoubtedWhereGlossOrNoiseRules)
     Degradation noisy;
     noisy.noise = 0.1;
     const PhotographedObject object = degraded(subject().clean, noisy);
-    std::vector<std::string> warnings;
-    const CheckedSample sample = checkCapture(object.seen, object.width, object.lights, {}, warnings);
-    const std::vector<std::string> said =
+    const CheckedSample sample = checkCapture(object.seen, object.width, object.lights, {});
+    const std::vector<Finding> said =
         methodWarnings(sample, NormalMethod::leastSquares, makeLeastSquaresEstimator(object.lights, {}));
-    EXPECT_TRUE(isSaid(said, "Lambert's law")) << said.size();
+    EXPECT_TRUE(contains(said, FindingCode::notLambertian)) << said.size();
 }
 
 TEST(SelfChecks, TooFewPixelsOrLightsAreNotJudged)
 {
-    std::vector<std::string> warnings;
-    const CheckedSample sample = checkCapture(Observations{}, 0, subject().clean.lights, {}, warnings);
-    EXPECT_TRUE(warnings.empty());
+    const CheckedSample sample = checkCapture(Observations{}, 0, subject().clean.lights, {});
+    EXPECT_TRUE(sample.findings.empty());
     EXPECT_TRUE(methodWarnings(sample, NormalMethod::leastSquares, {}).empty());
 }
 

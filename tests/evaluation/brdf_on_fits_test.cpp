@@ -3,7 +3,7 @@
 
 #include "acquisition/brdf/albedo_factor.h"
 #include "acquisition/brdf/bake.h"
-#include "acquisition/chain/prepared_normals.h"
+#include "acquisition/chain/chosen_method.h"
 #include "acquisition/normals/pixel_sample.h"
 #include "assets/synth/synth_lights.h"
 #include "assets/synth/synth_scene.h"
@@ -136,11 +136,14 @@ TEST(BrdfOnFits, TransfersWithTheProgramsOwnNormals)
     for (const char* name : kMaterials) {
         const Photographed subject = photographed(fmt::format("merl-abc:{}", name), 64);
         const PhotographedObject& object = subject.object;
-        const PreparedNormals prepared =
-            prepareNormals({evenSample(object.seen), object.photographs, true, object.lights}, {});
-        const Observations seen = selectLights(object.seen, prepared.agreeing);
-        const NormalBlock normals = estimateBlock(prepared.estimator, seen, prepared.lights);
-        const std::vector<glm::vec3> albedo = albedoFactors(seen, normals, prepared.lights);
+        const ReconciledPhotographs reconciled =
+            reconcilePhotographs({evenSample(object.seen), object.photographs, true, object.lights}, {});
+        const CaptureSample& sample = reconciled.sample;
+        const CheckedSample checked = checkCapture(sample.seen, sample.width, sample.lights, {});
+        const ChosenMethod chosen = chooseMethod(sample, checked, {});
+        const Observations seen = selectLights(object.seen, reconciled.agreeing);
+        const NormalBlock normals = estimateBlock(chosen.estimators.front(), seen, sample.lights);
+        const std::vector<glm::vec3> albedo = albedoFactors(seen, normals, sample.lights);
         // The mean factor is what the capture's scale is known up to.
         glm::vec3 sum(0);
         float count = 0;
@@ -148,7 +151,7 @@ TEST(BrdfOnFits, TransfersWithTheProgramsOwnNormals)
             sum += factor;
             count += factor != glm::vec3(0);
         }
-        const BrdfSamples samples = samplesOf(seen, normals, albedo, prepared.lights);
+        const BrdfSamples samples = samplesOf(seen, normals, albedo, sample.lights);
         const TransferError error = transferError(makeInterpolant(samples, {}), samples.domain, sum / count,
                                                   subject.scene.models[0], otherLights(), 0);
         mean += error.psnr / std::size(kMaterials);

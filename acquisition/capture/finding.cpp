@@ -1,0 +1,62 @@
+#include "acquisition/capture/finding.h"
+
+#include <algorithm>
+#include <array>
+
+namespace nacre {
+
+namespace {
+
+// In the order of FindingCode.
+constexpr std::array<std::string_view, 22> kNames = {"transfer-curve-left",
+                                                     "transfer-curve-taken",
+                                                     "lights-near",
+                                                     "lights-ill-placed",
+                                                     "few-lights",
+                                                     "spheres-disagree",
+                                                     "directions-contradicted",
+                                                     "lights-turned",
+                                                     "y-flipped",
+                                                     "normals-unstable",
+                                                     "clipped",
+                                                     "shadowed",
+                                                     "not-lambertian",
+                                                     "methods-disagree",
+                                                     "unexplained",
+                                                     "no-method",
+                                                     "photographs-left-out",
+                                                     "intensities-estimated",
+                                                     "intensities-corrected",
+                                                     "method-chosen",
+                                                     "reflectance-chosen",
+                                                     "reflectance-measured"};
+static_assert(kNames.size() == static_cast<size_t>(FindingCode::reflectanceMeasured) + 1);
+
+} // namespace
+
+std::string_view nameOf(FindingCode code)
+{
+    return kNames[static_cast<size_t>(code)];
+}
+
+bool isWarning(FindingCode code)
+{
+    return code <= FindingCode::noMethod;
+}
+
+std::string lineOf(const Finding& finding)
+{
+    return (isWarning(finding.code) ? "warning: " : "") + finding.text;
+}
+
+bool contains(const std::vector<Finding>& findings, FindingCode code)
+{
+    return std::any_of(findings.begin(), findings.end(), [code](const Finding& f) { return f.code == code; });
+}
+
+void append(std::vector<Finding>& to, const std::vector<Finding>& more)
+{
+    to.insert(to.end(), more.begin(), more.end());
+}
+
+} // namespace nacre

@@ -1,0 +1,52 @@
+#pragma once
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace nacre {
+
+// What a stage tells the user beside its result. JSON, docs/limitations.md and tests match codes, not texts.
+enum class FindingCode {
+    // Warnings: the result may be wrong.
+    transferCurveLeft,
+    transferCurveTaken,
+    lightsNear,
+    lightsIllPlaced,
+    fewLights,
+    spheresDisagree,
+    directionsContradicted,
+    lightsTurned,
+    yFlipped,
+    normalsUnstable,
+    clipped,
+    shadowed,
+    notLambertian,
+    methodsDisagree,
+    unexplained,
+    noMethod,
+    // Remarks: what was done.
+    photographsLeftOut,
+    intensitiesEstimated,
+    intensitiesCorrected,
+    methodChosen,
+    reflectanceChosen,
+    reflectanceMeasured,
+};
+
+struct Finding {
+    FindingCode code;
+    std::string text; // one line, without the code
+    bool operator==(const Finding&) const = default;
+};
+
+// "transfer-curve-left", "lights-near", ...
+std::string_view nameOf(FindingCode code);
+bool isWarning(FindingCode code);
+
+// The text; of a warning with "warning: " before it.
+std::string lineOf(const Finding& finding);
+
+bool contains(const std::vector<Finding>& findings, FindingCode code);
+void append(std::vector<Finding>& to, const std::vector<Finding>& more);
+
+} // namespace nacre

@@ -1,0 +1,33 @@
+#include "acquisition/chain/stage_clock.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace nacre {
+
+void StageClock::enter(const std::string& stage)
+{
+    endStage();
+    stage_ = stage;
+    start_ = std::chrono::steady_clock::now();
+}
+
+std::vector<StageTime> StageClock::finish()
+{
+    endStage();
+    stage_.clear();
+    return std::move(times_);
+}
+
+void StageClock::endStage()
+{
+    if (stage_.empty()) {
+        return;
+    }
+    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+    const auto found =
+        std::find_if(times_.begin(), times_.end(), [&](const StageTime& t) { return t.stage == stage_; });
+    (found == times_.end() ? times_.emplace_back(StageTime{stage_, 0}) : *found).seconds += seconds;
+}
+
+} // namespace nacre
