@@ -78,8 +78,10 @@ void ChartArguments::addTo(CLI::App& command)
 {
     command.add_option("CAPTURE", captures, "Folders of photographs")->required();
     command
-        .add_option("-o,--output", output,
-                    "Folder to write: report.html, normals.csv, brdf.csv, rendering.csv and each chart as .svg")
+        .add_option(
+            "-o,--output", output,
+            "Folder to write: report.html, normals.csv, brdf.csv, rendering.csv, charts as .svg (by gnuplot, where "
+            "installed) and the scripts .gp that draw them")
         ->required();
     command.add_option("--mirror-sphere", capture.mirrorSphere,
                        "Folder of a mirror sphere's photographs, for all captures");

@@ -121,21 +121,24 @@ ChartResult measureAll(const std::vector<Capture>& captures, const AcquireOption
     return result;
 }
 
-void writeResults(const ChartArguments& arguments, const ChartRows& rows, const std::vector<std::string>& remarks)
+// Answers what kept charts from being drawn.
+std::string writeResults(const ChartArguments& arguments, const ChartRows& rows, std::vector<std::string> remarks)
 {
     WholeOutput output(arguments.output, arguments.force);
     std::error_code error;
     if (!fs::create_directory(output.temporary(), error)) {
         throw Error(arguments.output, "cannot be made: " + error.message(), "a writable place with room");
     }
-    writeTextFile(output.temporary() / "normals.csv", csvOf(rows.normals));
-    writeTextFile(output.temporary() / "brdf.csv", csvOf(rows.brdf));
-    writeTextFile(output.temporary() / "rendering.csv", csvOf(rows.rendering));
-    for (const NamedChart& chart : chartsOf(rows)) {
-        writeTextFile(output.temporary() / chart.file, svgOf(chart.chart));
+    writeTextFile(output.temporary() / kNormalTable, csvOf(rows.normals));
+    writeTextFile(output.temporary() / kBrdfTable, csvOf(rows.brdf));
+    writeTextFile(output.temporary() / kRenderingTable, csvOf(rows.rendering));
+    const std::string missing = drawPlots(output.temporary(), plotsOf(rows));
+    if (!missing.empty()) {
+        remarks.push_back(missing);
     }
-    writeTextFile(output.temporary() / kReport, reportOf(rows, remarks));
+    writeTextFile(output.temporary() / kReport, reportOf(rows, remarks, output.temporary()));
     output.commit();
+    return missing;
 }
 
 std::vector<std::string> remarksOn(const ChartResult& result, size_t finished)
@@ -171,7 +174,7 @@ void runChart(const ChartArguments& arguments)
     std::signal(SIGINT, SIG_DFL);
     const ChartRows& rows = result.rows;
     const size_t finished = rows.normals.size() + rows.brdf.size() + rows.rendering.size();
-    writeResults(arguments, rows, remarksOn(result, finished));
+    const std::string missing = writeResults(arguments, rows, remarksOn(result, finished));
     if (!arguments.order.empty() && !interrupted && result.failures.empty()) {
         writeTextFile(arguments.order, sourceOf(candidatesFrom(rows)));
     }
@@ -185,8 +188,8 @@ void runChart(const ChartArguments& arguments)
                     "captures and a device that can be read to the end");
     }
     if (!arguments.quiet) {
-        fmt::print("{} settings of {} captures\nwrote {}\n", finished, captures.size(),
-                   (arguments.output / kReport).string());
+        fmt::print("{} settings of {} captures\n{}{}wrote {}\n", finished, captures.size(), missing,
+                   missing.empty() ? "" : "\n", (arguments.output / kReport).string());
     }
 }
 

@@ -9,7 +9,7 @@
 #include "engine/files/error.h"
 #include "engine/files/whole_file.h"
 #include "engine/materials/material_specification.h"
-#include "evaluation/stress/stress_chart.h"
+#include "evaluation/stress/stress_page.h"
 #include "evaluation/stress/stress_tables.h"
 
 namespace nacre {
@@ -18,7 +18,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kSynthetic = "synthetic";
-constexpr const char* kTable = "stress.csv";
 
 struct StressArguments {
     CalibrationArguments capture;
@@ -61,26 +60,27 @@ StressSubject subjectOf(StressArguments& arguments)
 void checkOutput(const StressArguments& arguments)
 {
     WholeOutput(arguments.output, arguments.capture.force);
-    if (fs::exists(arguments.output) && !fs::exists(arguments.output / kTable)) {
-        throw Error(arguments.output, "exists and holds no " + std::string(kTable),
+    if (fs::exists(arguments.output) && !fs::exists(arguments.output / kStressTable)) {
+        throw Error(arguments.output, "exists and holds no " + std::string(kStressTable),
                     "a new name; --force replaces the results of stress alone");
     }
 }
 
-void writeResults(const StressArguments& arguments, const std::vector<StressRow>& rows, const std::string& tables)
+// Answers what kept charts from being drawn.
+std::string writeResults(const StressArguments& arguments, const std::vector<StressRow>& rows,
+                         const std::string& tables)
 {
     WholeOutput output(arguments.output, arguments.capture.force);
     std::error_code error;
     if (!fs::create_directory(output.temporary(), error)) {
         throw Error(arguments.output, "cannot be made: " + error.message(), "a writable place with room");
     }
-    writeTextFile(output.temporary() / kTable, csvOf(rows));
+    writeTextFile(output.temporary() / kStressTable, csvOf(rows));
     writeTextFile(output.temporary() / "stress.txt", tables);
-    writeTextFile(output.temporary() / "stress.html", stressPageOf(rows));
-    for (const StressChart& chart : stressChartsOf(rows)) {
-        writeTextFile(output.temporary() / chart.file, chart.svg);
-    }
+    const std::string remark = drawPlots(output.temporary(), stressPlotsOf(rows));
+    writeTextFile(output.temporary() / "stress.html", stressPageOf(rows, remark, output.temporary()));
     output.commit();
+    return remark;
 }
 
 void runStress(StressArguments& arguments)
@@ -99,12 +99,12 @@ void runStress(StressArguments& arguments)
     const std::vector<StressRow> rows = runSweeps(subject, sweeps, methods, options, progressLine(quiet));
     endProgressLine(quiet);
     const std::string tables = tablesOf(rows) + "\n" + breakingPointsOf(rows) + "\n" + countTableOf(rows);
-    writeResults(arguments, rows, tables);
+    const std::string remark = writeResults(arguments, rows, tables);
     if (!quiet) {
         const auto silent = countsOf(rows).silent;
-        fmt::print("{}: {} pixels, {} lights, seed {}\n\n{}\n{} of {} runs fail silently\nwrote {}\n",
+        fmt::print("{}: {} pixels, {} lights, seed {}\n\n{}\n{} of {} runs fail silently\n{}{}wrote {}\n",
                    subject.clean.name, subject.clean.seen.pixels.size(), subject.clean.lights.size(), arguments.seed,
-                   tables, silent, rows.size(), arguments.output.string());
+                   tables, silent, rows.size(), remark, remark.empty() ? "" : "\n", arguments.output.string());
     }
 }
 
@@ -119,7 +119,8 @@ void addStressCommand(CLI::App& app)
     command->get_option("CAPTURE")->description("Folder of photographs with true normals, or `synthetic`");
     command
         ->add_option("-o,--output", arguments->output,
-                     "Folder to write: stress.csv, stress.txt, stress.html and its charts")
+                     "Folder to write: stress.csv, stress.txt, stress.html, charts as .svg (by gnuplot, where "
+                     "installed) and the scripts .gp that draw them")
         ->required();
     command
         ->add_option(

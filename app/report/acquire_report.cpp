@@ -8,12 +8,11 @@
 #include "app/arguments/destinations.h"
 #include "app/report/acquisition_summary.h"
 #include "app/report/debug_pictures.h"
+#include "app/report/report_figures.h"
 #include "app/report/report_pictures.h"
 #include "app/report/report_sections.h"
 #include "engine/files/whole_file.h"
-#include "evaluation/charts/chart_marks.h"
 #include "evaluation/charts/html_page.h"
-#include "evaluation/charts/light_figure.h"
 
 namespace nacre {
 

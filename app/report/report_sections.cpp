@@ -6,10 +6,8 @@
 #include <fmt/format.h>
 #include <glm/trigonometric.hpp>
 
-#include "evaluation/charts/bar_figure.h"
-#include "evaluation/charts/chart_marks.h"
+#include "app/report/report_figures.h"
 #include "evaluation/charts/html_page.h"
-#include "evaluation/charts/light_figure.h"
 
 namespace nacre {
 

@@ -64,4 +64,11 @@ std::string describe(const BrdfRow& row)
                        nameOf(row.setting.format));
 }
 
+std::string describe(const RenderingSetting& setting)
+{
+    return !setting.isBall            ? "direct"
+           : setting.size.display > 0 ? fmt::format("ball {}/{}", setting.size.radiance, setting.size.display)
+                                      : "ball auto";
+}
+
 } // namespace nacre

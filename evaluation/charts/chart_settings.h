@@ -5,7 +5,7 @@
 #include "acquisition/chain/acquire_options.h"
 #include "engine/brdf/texel_format.h"
 #include "engine/files/measures.h"
-#include "evaluation/charts/rendering_chart.h"
+#include "engine/scene/ball_size.h"
 
 namespace nacre {
 
@@ -21,6 +21,37 @@ struct BrdfSetting {
     size_t size = 0; // index into chartTableSizes
     TexelFormat format = TexelFormat::rgba32f;
     bool operator==(const BrdfSetting&) const = default;
+};
+
+// A path of the renderer: every pixel looks every light up in the table, or all lights in one ball of that size.
+struct RenderingSetting {
+    bool isBall = false;
+    BallSize size; // of every material's ball; 0 texels: as the program measures it, material by material
+    bool operator==(const RenderingSetting&) const = default;
+};
+
+struct RenderingRow {
+    std::string capture;
+    RenderingSetting setting;
+    size_t lights = 0;
+    double steadyMs = 0; // a frame, once everything is on the device
+    double movedMs = 0;  // the first frame after every light has moved
+    double psnr = 0;     // dB of the picture's codes against codes that nothing has rounded
+    bool isDefault = false;
+};
+
+struct RenderingChoices {
+    std::vector<RenderingSetting> settings{{},
+                                           {true, {}},
+                                           {true, {32, 64}},
+                                           {true, {64, 128}},
+                                           {true, {64, 320}},
+                                           {true, {128, 512}},
+                                           {true, {256, 1024}},
+                                           {true, {512, 2048}}};
+    std::vector<size_t> lights{1, 8, 64};
+    int width = 1280, height = 720; // pixels of the frames
+    int repeats = 9;                // at most; their median counts
 };
 
 // What to try; each member an axis, all combinations of which are settings.
@@ -79,5 +110,7 @@ struct ChartRows {
 // "consensus, 12 lights"; "k 25, 90x23x23 RGBA16F": the interpolation is told by the marker.
 std::string describe(const NormalRow& row);
 std::string describe(const BrdfRow& row);
+// "direct", "ball 64/320": texels of radiance and as shown; "ball auto".
+std::string describe(const RenderingSetting& setting);
 
 } // namespace nacre

@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 
 #include "engine/files/whole_file.h"
-#include "evaluation/charts/chart_marks.h"
 
 namespace nacre {
 
@@ -16,7 +15,7 @@ body { font: 16px/1.5 sans-serif; color: #222; background: #fff; max-width: 60re
 svg { width: 100%; height: auto; }
 img { max-width: 100%; height: auto; }
 .wide { overflow-x: auto; }
-.wide svg { min-width: 44rem; }
+.chart img { width: 100%; min-width: 44rem; max-width: none; }
 svg.narrow { max-width: 34rem; display: block; }
 .sheet { display: grid; grid-template-columns: repeat(auto-fill, minmax(7rem, 1fr)); gap: 0.6rem; }
 .large { grid-template-columns: repeat(auto-fill, minmax(14rem, 1fr)); }
@@ -49,6 +48,31 @@ std::string base64(const std::string& bytes)
 }
 
 } // namespace
+
+std::string escaped(const std::string& text)
+{
+    std::string result;
+    for (const char c : text) {
+        switch (c) {
+        case '&':
+            result += "&amp;";
+            break;
+        case '<':
+            result += "&lt;";
+            break;
+        case '>':
+            result += "&gt;";
+            break;
+        case '"':
+            result += "&quot;";
+            break;
+        default:
+            // Control characters stand in no XML, however they are written.
+            result += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
+        }
+    }
+    return result;
+}
 
 std::string pageHead(const std::string& title, const std::string& heading)
 {

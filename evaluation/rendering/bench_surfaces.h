@@ -13,7 +13,8 @@ Surface benchSurface(const PictureSize& size, const Material& material, bool mod
 // Waves with the slopes of its normals, nearly: what shadows cost does not depend on where they fall.
 Image wavyHeight(int width, int height);
 
-// `turn` moves every light a little, so that every ball is out of date.
+// Lights before the surface, evenly over directions to 42 degrees off the view, each an equal part of one light. `turn`
+// moves every one of them a little, so that every ball is out of date.
 std::vector<Light> benchLights(int count, int turn);
 
 // A layer of `components` for the surface, as if estimated from so many captured lights.

@@ -12,10 +12,31 @@
 #include "engine/files/measures.h"
 #include "engine/gpu/renderer.h"
 #include "engine/scene/reference.h"
+#include "evaluation/rendering/bench_surfaces.h"
 
 namespace nacre {
 
 namespace {
+
+struct Box {
+    int left = 0, top = 0, width = 0, height = 0;
+};
+
+// Around the pixels that have a material; the whole picture where none has.
+Box objectBox(const Surface& surface)
+{
+    const int width = surface.normals.width, height = surface.normals.height;
+    int left = width, top = height, right = -1, bottom = -1;
+    for (int y = 0; y < height; ++y) {
+        for (int x = 0; x < width; ++x) {
+            if (surface.labels[surface.normals.index(x, y)] != Surface::kNoMaterial) {
+                left = std::min(left, x), right = std::max(right, x);
+                top = std::min(top, y), bottom = std::max(bottom, y);
+            }
+        }
+    }
+    return right < 0 ? Box{0, 0, width, height} : Box{left, top, right - left + 1, bottom - top + 1};
+}
 
 // Wall clock around a call that returns once the device is done.
 template <class Call> float milliseconds(Call&& call)
@@ -73,7 +94,7 @@ public:
     void drawRound(size_t lights, int turn)
     {
         moved_.push_back(milliseconds([&] {
-            renderer_.setLights(chartLights(lights, turn));
+            renderer_.setLights(benchLights(static_cast<int>(lights), turn));
             renderer_.drawPicture();
         }));
         steady_.push_back(milliseconds([&] {
@@ -115,7 +136,7 @@ public:
 
     std::vector<RenderingRow> measure(size_t lights, const std::function<bool()>& isStopped)
     {
-        scene_.lights = chartLights(lights, 0);
+        scene_.lights = benchLights(static_cast<int>(lights), 0);
         const Frame radiance = renderReference(scene_);
         const Display display{automaticExposure(radiance), kToneSrgb};
         const Image reference = unroundedCodes(radiance, display);
@@ -167,6 +188,32 @@ private:
 };
 
 } // namespace
+
+Surface tiledSurface(const Surface& surface, int width, int height)
+{
+    const Box box = objectBox(surface);
+    Surface tiled;
+    tiled.normals = NormalMap(width, height);
+    tiled.labels.resize(tiled.normals.normals.size());
+    tiled.materials = surface.materials;
+    const bool hasAlbedo = !surface.albedo.values.empty();
+    if (hasAlbedo) {
+        tiled.albedo = Image(width, height, 3);
+    }
+    for (int y = 0; y < height; ++y) {
+        for (int x = 0; x < width; ++x) {
+            const int fromX = box.left + x % box.width, fromY = box.top + y % box.height;
+            const size_t to = tiled.normals.index(x, y), from = surface.normals.index(fromX, fromY);
+            tiled.normals.normals[to] = surface.normals.normals[from];
+            tiled.normals.confidence[to] = surface.normals.confidence[from];
+            tiled.labels[to] = surface.labels[from];
+            if (hasAlbedo) {
+                tiled.albedo.setRgb(x, y, surface.albedo.rgb(fromX, fromY));
+            }
+        }
+    }
+    return tiled;
+}
 
 size_t countSettings(const RenderingChoices& choices)
 {

@@ -1,6 +1,7 @@
 #include "evaluation/stress/stress_tables.h"
 
 #include <algorithm>
+#include <set>
 
 #include <fmt/format.h>
 
@@ -72,15 +73,22 @@ std::vector<StressRow> rowsWhere(const std::vector<StressRow>& rows, std::string
     return found;
 }
 
+const char* errorUnitOf(const StressRow& row)
+{
+    return row.isBrdf ? "percent" : "degrees";
+}
+
 std::string csvOf(const std::vector<StressRow>& rows)
 {
     std::string text = "capture,sweep,setting,unit,method,error,error_unit,median_degrees,percentile95_degrees,pixels,"
-                       "missing_pixels,seconds,broken,warned,silent,mean_confidence,wrong_share,warnings\n";
+                       "missing_pixels,seconds,broken,breaking,warned,silent,mean_confidence,wrong_share,warnings\n";
+    std::set<std::string> brokenCurves;
     for (const StressRow& r : rows) {
-        text += fmt::format("{},{},{},{},{},{:.4f},{},{:.4f},{:.4f},{},{},{:.3f},{},{},{},{:.4f},{:.4f},{}\n",
+        const bool isBreaking = r.broken && brokenCurves.insert(r.sweep + "," + r.method).second;
+        text += fmt::format("{},{},{},{},{},{:.4f},{},{:.4f},{:.4f},{},{},{:.3f},{},{},{},{},{:.4f},{:.4f},{}\n",
                             csvField(r.capture), r.sweep, r.setting, csvField(r.unit), r.method, r.error,
-                            r.isBrdf ? "percent" : "degrees", r.angles.median, r.angles.percentile95, r.angles.pixels,
-                            r.angles.missing, r.seconds, r.broken ? "yes" : "no", textOf(r.said),
+                            errorUnitOf(r), r.angles.median, r.angles.percentile95, r.angles.pixels, r.angles.missing,
+                            r.seconds, r.broken ? "yes" : "no", isBreaking ? "yes" : "no", textOf(r.said),
                             isSilentFailure(r) ? "yes" : "no", r.meanConfidence, r.wrongShare, csvField(r.warnings));
     }
     return text;

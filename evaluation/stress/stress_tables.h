@@ -12,8 +12,9 @@ std::vector<std::string> distinctOf(const std::vector<StressRow>& rows, std::str
 std::vector<StressRow> rowsWhere(const std::vector<StressRow>& rows, std::string StressRow::*member,
                                  const std::string& value);
 
-// A line per row under a heading (RFC 4180: a text with a comma, quote or line break stands in quotes).
+// A line per row under a heading (RFC 4180). `breaking`: the first broken setting of a method in a sweep.
 std::string csvOf(const std::vector<StressRow>& rows);
+const char* errorUnitOf(const StressRow& row); // as the table names it
 
 // Per sweep a table for people: the error, a column per method, a line per setting.
 std::string tablesOf(const std::vector<StressRow>& rows);

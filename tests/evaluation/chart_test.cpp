@@ -2,13 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <sstream>
 
 #include <gtest/gtest.h>
 
-#include "evaluation/charts/chart_default.h"
-#include "evaluation/charts/chart_labels.h"
+#include "engine/files/whole_file.h"
 #include "evaluation/charts/chart_tables.h"
+#include "tests/support/temp_folder.h"
 
 namespace nacre {
 namespace {
@@ -71,45 +72,67 @@ size_t countOf(const std::string& text, const std::string& part)
     return count;
 }
 
-TEST(ChartSvg, IsWellFormedAndDrawsFrontDominatedAndDefault)
+TEST(ChartPlots, AreOneAChartAndNameWhatTheyDraw)
 {
-    for (const NamedChart& chart : chartsOf(chartRows())) {
-        expectWellFormed(svgOf(chart.chart));
-    }
-    const std::string svg = svgOf(chartsOf(chartRows()).front().chart);
-    EXPECT_NE(svg.find("a, &quot;b&quot; &lt;c&gt;"), std::string::npos);
-    // Beside one of each in the legend: three of four on the front, ransac dominated by consensus, auto the default.
-    EXPECT_EQ(countOf(svg, "fill=\"#0072b2\""), 4u);
-    EXPECT_EQ(countOf(svg, "fill=\"#b4b4b4\""), 2u);
-    EXPECT_EQ(countOf(svg, "stroke=\"#d55e00\""), 2u);
-    EXPECT_EQ(svg.find(">ransac, 12 lights<"), std::string::npos);
-    EXPECT_NE(svg.find(">consensus, 12 lights<"), std::string::npos);
+    const std::vector<Plot> plots = plotsOf(chartRows());
+    ASSERT_EQ(plots.size(), 3u);
+    EXPECT_EQ(plots[0].name, "a___b___c_-normals");
+    EXPECT_NE(plots[0].script.find("set title 'a, \"b\" <c>: normals, error against time'"), std::string::npos);
+    EXPECT_NE(plots[0].script.find("table = 'normals.csv'; first = 0; last = 3"), std::string::npos);
+    EXPECT_EQ(plots[1].name, "ball-brdf-bytes");
+    EXPECT_EQ(plots[2].name, "ball-brdf-time");
 }
 
-TEST(ChartSvg, LeavesOutWhatAnAxisCannotShow)
+TEST(ChartPlots, QuotesEndNoString)
 {
-    Chart chart{"t", {"x", true, true}, {"y", false, false}, {{"s", "zero", 0, 1}, {"s", "nan", 1, std::nan("")}}};
-    expectWellFormed(svgOf(chart));
-    EXPECT_NE(svgOf(chart).find("nothing was measured"), std::string::npos);
-    chart.points.push_back({"s", "good", 1, 1});
+    EXPECT_EQ(quoted("it's `date`\n"), "'it''s `date` '");
+}
+
+TEST(ChartPlots, WithoutGnuplotScriptsAreWrittenAndSayWhatIsMissing)
+{
+    const TempFolder folder;
+    const std::vector<Plot> plots = plotsOf(chartRows());
+    const std::string path = std::getenv("PATH");
+    setenv("PATH", folder.path().c_str(), 1);
+    const std::string missing = drawPlots(folder.path(), plots);
+    setenv("PATH", path.c_str(), 1);
+    EXPECT_NE(missing.find("gnuplot-nox"), std::string::npos) << missing;
+    EXPECT_TRUE(std::filesystem::exists(folder / "ball-brdf-time.gp"));
+    EXPECT_EQ(plotFigure(folder.path(), plots.front()), "");
+}
+
+TEST(ChartPlots, AreDrawnFromTheTables)
+{
+    const TempFolder folder;
+    const ChartRows rows = chartRows();
+    writeTextFile(folder / kNormalTable, csvOf(rows.normals));
+    writeTextFile(folder / kBrdfTable, csvOf(rows.brdf));
+    const std::vector<Plot> plots = plotsOf(rows);
+    ASSERT_EQ(drawPlots(folder.path(), plots), "");
+    const std::string svg = readTextFile(folder / (plots.front().name + ".svg"));
+    EXPECT_NE(svg.find("consensus, 12 lights"), std::string::npos) << "on the front";
+    EXPECT_EQ(svg.find("ransac, 12 lights"), std::string::npos) << "dominated";
+    EXPECT_NE(svg.find("the program's default"), std::string::npos);
+    EXPECT_EQ(drawPlots(folder.path(), {{"wrong", "plot nothing"}}).find("gnuplot cannot draw wrong.gp"), 0u);
+}
+
+TEST(Chart, LeavesOutWhatAnAxisCannotShow)
+{
+    Chart chart{"t", "x", "y", false, {{"s", "zero", 0, 1}, {"s", "nan", 1, std::nan("")}, {"s", "good", 1, 1}}};
     EXPECT_EQ(frontOf(chart), (std::vector<char>{0, 0, 1}));
-    const std::string svg = svgOf(chart);
-    expectWellFormed(svg);
-    EXPECT_EQ(svg.find("nan"), std::string::npos) << "of one point as well an axis has a length";
-    EXPECT_EQ(svg.find("inf"), std::string::npos);
 }
 
-TEST(ChartSvg, MoreIsBetterWhereTheAxisSaysSo)
+TEST(Chart, MoreIsBetterOfDecibels)
 {
-    Chart chart{"t", {"bytes", true, true}, {"dB", false, false}, {{"s", "a", 1, 40}, {"s", "b", 2, 30}}};
+    Chart chart{"t", "bytes", "dB", false, {{"s", "a", 1, 40}, {"s", "b", 2, 30}}};
     EXPECT_EQ(frontOf(chart), (std::vector<char>{1, 0}));
-    chart.y.isLessBetter = true;
+    chart.isError = true;
     EXPECT_EQ(frontOf(chart), (std::vector<char>{1, 1}));
 }
 
 TEST(ChartDefault, IsBeatenByWhatIsATenthBetterInBoth)
 {
-    Chart chart{"t", {"s", true, true}, {"degrees", true, true}, {{"m", "usual", 10, 2, true}}};
+    Chart chart{"t", "s", "degrees", true, {{"m", "usual", 10, 2, true}}};
     chart.points.push_back({"m", "faster alone", 1, 1.81});
     chart.points.push_back({"m", "better alone", 9.1, 1});
     EXPECT_TRUE(clearlyBetter(chart).empty());
@@ -118,52 +141,11 @@ TEST(ChartDefault, IsBeatenByWhatIsATenthBetterInBoth)
     EXPECT_EQ(clearlyBetter(chart), (std::vector<size_t>{3}));
     EXPECT_NE(describeDefault(chart).find("m, both"), std::string::npos);
     // 20 log10(1 / 0.9) = 0.915 dB are a tenth of the error.
-    chart.y = {"dB", false, false};
+    chart.isError = false;
     chart.points = {{"m", "usual", 10, 30, true}, {"m", "a", 1, 30.9}, {"m", "b", 1, 30.93}};
     EXPECT_EQ(clearlyBetter(chart), (std::vector<size_t>{2}));
     chart.points.front().isDefault = false;
     EXPECT_TRUE(describeDefault(chart).empty());
-}
-
-TEST(ChartLabels, NeverOverlapEachOtherWhatIsTakenOrTheFrame)
-{
-    std::vector<LabelAnchor> anchors;
-    std::vector<LabelBox> taken;
-    for (int i = 0; i < 14; ++i) {
-        anchors.push_back({100 + 7.0 * i, 150 + 5.0 * (i % 3), "local-linear " + std::to_string(i)});
-        taken.push_back({anchors.back().x - 5, anchors.back().y - 5, 10, 10});
-    }
-    const LabelBox frame{0, 0, 500, 300};
-    const std::vector<PlacedLabel> placed = placeLabels(anchors, taken, frame);
-    EXPECT_GE(placed.size(), 10u) << "there is room for most";
-    for (size_t i = 0; i < placed.size(); ++i) {
-        const LabelBox& box = placed[i].box;
-        EXPECT_GE(std::min(box.x, box.y), 0);
-        EXPECT_LE(box.x + box.width, 500);
-        EXPECT_LE(box.y + box.height, 300);
-        for (size_t j = 0; j < i; ++j) {
-            EXPECT_FALSE(overlap(box, placed[j].box)) << i << " " << j;
-        }
-        EXPECT_TRUE(std::none_of(taken.begin(), taken.end(), [&](const LabelBox& t) { return overlap(box, t); }));
-    }
-}
-
-TEST(ChartAxis, TicksLieWithinAndTellTheirValues)
-{
-    const ChartScale log({0.03, 12}, true), narrow({1000, 1000}, true), linear({28.31, 39.2}, false);
-    for (const ChartScale& scale : {log, narrow, linear}) {
-        EXPECT_GE(scale.ticks().size(), 2u);
-        EXPECT_LE(scale.ticks().size(), 10u);
-        for (const double tick : scale.ticks()) {
-            EXPECT_GE(scale.position(tick), 0);
-            EXPECT_LE(scale.position(tick), 1);
-        }
-    }
-    EXPECT_NEAR(log.position(0.6), 0.5, 1e-9) << "the geometric mean of 0.03 and 12";
-    EXPECT_NEAR(linear.position(33.755), 0.5, 1e-9);
-    EXPECT_EQ(tickText(0.05), "0.05");
-    EXPECT_EQ(tickText(1500000), "1.5M");
-    EXPECT_EQ(tickText(20000), "20k");
 }
 
 // Fields outside quotes.
@@ -195,8 +177,9 @@ TEST(ChartCsv, HasALineASettingWithEveryField)
         EXPECT_EQ(found, count);
     }
     EXPECT_NE(csvOf(rows.normals).find("\"a, \"\"b\"\" <c>\",consensus,12,1.0000,2.0000,"), std::string::npos);
-    EXPECT_NE(csvOf(rows.normals).find(",ransac,12,,,,,,,no,\"too few, alas\"\n"), std::string::npos);
-    EXPECT_NE(csvOf(rows.brdf).find("ball,local-linear,25,9,8,7,RGBA32F,8064,2.5000,32.5000,yes\n"), std::string::npos);
+    EXPECT_NE(csvOf(rows.normals).find(",ransac,12,,,,,,,no,no,\"too few, alas\"\n"), std::string::npos);
+    EXPECT_NE(csvOf(rows.brdf).find("ball,local-linear,25,9,8,7,RGBA32F,8064,2.5000,32.5000,yes,no,no\n"),
+              std::string::npos);
 }
 
 TEST(ChartSettings, AreAllCombinationsAndOneIsTheDefault)
@@ -214,14 +197,14 @@ TEST(ChartSettings, AreAllCombinationsAndOneIsTheDefault)
 TEST(ChartReport, StandsAloneAndHasEverySetting)
 {
     const ChartRows rows = chartRows();
-    const std::string html = reportOf(rows, {"1 < 2"});
-    EXPECT_EQ(countOf(html, "<svg "), 3u);
+    const TempFolder folder;
+    const std::string html = reportOf(rows, {"1 < 2"}, folder.path());
     EXPECT_EQ(countOf(html, "<tr class="), rows.normals.size() + rows.brdf.size());
     EXPECT_EQ(html.find("src="), std::string::npos);
     EXPECT_EQ(html.find("href="), std::string::npos);
     EXPECT_NE(html.find("1 &lt; 2"), std::string::npos);
     expectWellFormed(html.substr(html.find("<h1>"), html.find("</body>") - html.find("<h1>")));
-    EXPECT_EQ(countOf(reportOf({}, {}), "</html>"), 1u) << "nothing finished is a report as well";
+    EXPECT_EQ(countOf(reportOf({}, {}, folder.path()), "</html>"), 1u) << "nothing finished is a report as well";
 }
 
 } // namespace

@@ -4,10 +4,12 @@
 
 #include <gtest/gtest.h>
 
+#include "engine/files/whole_file.h"
 #include "evaluation/stress/light_layouts.h"
-#include "evaluation/stress/stress_chart.h"
+#include "evaluation/stress/stress_page.h"
 #include "evaluation/stress/stress_tables.h"
 #include "tests/support/expect_error.h"
+#include "tests/support/temp_folder.h"
 
 namespace nacre {
 namespace {
@@ -130,22 +132,20 @@ TEST(Stress, CountsTellSilentFromSaidAndAlarmsFromFailures)
     EXPECT_EQ(counts.mildestAlarms, 1u);
 }
 
-TEST(Stress, ChartsMarkSilentFailuresAndLeaveRefusalsOut)
+TEST(Stress, PlotsMarkSilentFailuresAndLeaveRefusalsOut)
 {
+    const TempFolder folder;
     std::vector<StressRow> rows{rowOf("0", 2), rowOf("1", 9), rowOf("2", 9.5)};
     rows[2].said = Said::refusal;
-    const std::string svg = stressSvg(judged(rows)), red = "#d00000";
-    const auto count = [&](const std::string& text) {
-        size_t found = 0;
-        for (size_t at = svg.find(text); at != std::string::npos; at = svg.find(text, at + 1)) {
-            ++found;
-        }
-        return found;
-    };
-    EXPECT_EQ(count(red), 3u) << "the mark, its cross and the legend's";
-    EXPECT_EQ(count("r=\"9\""), 2u) << "one ring, and the legend's";
-    EXPECT_NE(stressPageOf(judged(rows)).find(svg), std::string::npos);
-    EXPECT_EQ(stressSvg({}), "");
+    rows = judged(rows);
+    writeTextFile(folder / kStressTable, csvOf(rows));
+    const std::vector<Plot> plots = stressPlotsOf(rows);
+    ASSERT_EQ(plots.size(), 1u);
+    ASSERT_EQ(drawPlots(folder.path(), plots), "");
+    const std::string svg = readTextFile(folder / "s-normals.svg");
+    EXPECT_NE(svg.find("rgb(208,   0,   0)"), std::string::npos) << svg;
+    EXPECT_NE(stressPageOf(rows, "a remark", folder.path()).find("src=\"data:image/svg+xml"), std::string::npos);
+    EXPECT_TRUE(stressPlotsOf({rows[2]}).empty());
 }
 
 TEST(Stress, ABrdfIsMeasuredBesideAutoAndSuffersFromItsNormals)
@@ -179,7 +179,7 @@ TEST(Stress, TheCsvHasAsManyFieldsInEveryLine)
     for (size_t at = 0; at < csv.size(); ++lines) {
         const size_t end = csv.find('\n', at);
         ASSERT_NE(end, std::string::npos);
-        EXPECT_EQ(std::count(csv.begin() + at, csv.begin() + end, ','), 17);
+        EXPECT_EQ(std::count(csv.begin() + at, csv.begin() + end, ','), 18);
         at = end + 1;
     }
     EXPECT_EQ(lines, 3u);

@@ -56,7 +56,7 @@ echo "$said"
 whole='wider false pictures 17 broken 0 figures 4 links 0 end'
 check "acquire's report on a telephone" says "page telephone width 390 $whole"
 check "acquire's report on a desk" says "page desk width 1280 $whole"
-check "chart's report on a telephone" says 'page charts width 390 wider false pictures 0 broken 0 figures 3 links 0 end'
+check "chart's report on a telephone" says 'page charts width 390 wider false pictures 3 broken 0 figures 0 links 0 end'
 check "nothing on the console" console_is_silent
 cat "$work/console"
 

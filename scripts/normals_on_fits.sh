@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Angular errors of every normal method on synthetic captures of twenty published fits (36 lights, cast shadows, noise 0.2 %).
-#   evaluation/normals_on_fits.sh NACRE FITS_DIR WORK_DIR [FAMILY]
+#   scripts/normals_on_fits.sh NACRE FITS_DIR WORK_DIR [FAMILY]
 # FAMILY is merl-abc (default) or merl-sgd: which fits the captures are made of. Prints a Markdown table of mean degrees.
 # Exemplars use the built-in reflectances ("exemplar"), and those with the published fits ("with fits"), the object's own
 # name, its numbered siblings and its prefixes left out.
