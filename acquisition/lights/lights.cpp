@@ -24,7 +24,7 @@ namespace nacre {
 namespace {
 
 // Beyond it, an error of 1 % in the photographs can turn the normal by more than it is long.
-constexpr double kWorstCondition = 100;
+constexpr double kWorstLightCondition = 100;
 constexpr double kLargestTurn = 2; // degrees
 // Of photographs against the model, and what it may make of the normals in degrees: as much as gloss does to methods
 // that do not know it.
@@ -164,10 +164,10 @@ double requireSpanningLights(const std::vector<Light>& lights, const std::filesy
                     "at least three lights that do not lie in one plane");
     }
     const double condition = conditionOf(lights);
-    if (!(condition < kWorstCondition)) {
+    if (!(condition < kWorstLightCondition)) {
         throw Error(
             source, fmt::format("its lights lie in one plane with the object (condition number {:.3g})", condition),
-            fmt::format("directions that span space (below {:.0f}; well-spread lights have 1 to 10)", kWorstCondition));
+            fmt::format("directions that span space (below {:.0f}; well-spread lights have 1 to 10)", kWorstLightCondition));
     }
     return condition;
 }
