@@ -1,5 +1,5 @@
 #!/bin/sh
-# Remakes the tables of docs/stability.md and its charts: scripts/stability_figures.sh NACRE DILIGENT WORK
+# Remakes the tables of docs/limitations.md and its charts: scripts/stability_figures.sh NACRE DILIGENT WORK
 # NACRE: the program; DILIGENT: the folder with ballPNG and bearPNG; WORK: a new folder for results, by capture.
 set -eu
 nacre=$1

@@ -13,12 +13,8 @@ END
 open_window --state "$work/state.json" --capture "$work/capture"
 sleep 4 # thumbnails and photographs
 take window
-press c; take coverage
-press c w; sleep 2; take wipe
-press w bracketright bracketright bracketright p; take photograph
-press x; take difference
-press v; take verdicts
-press v h; take help
-press h Escape
+press bracketright bracketright bracketright p x; take difference
+press x v; take verdicts
+press v Escape
 wait "$window_id"
 window_id=

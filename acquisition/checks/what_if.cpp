@@ -17,7 +17,7 @@ namespace {
 constexpr double kExponents[] = {1 / 2.2, 0.56, 0.67, 0.83, 0.91, 1.1, 1.2, 1.5, 1.8, 2.2};
 constexpr double kWidths[] = {20, 10, 5, 2.5};
 // Of the scatter that is left. Gloss, noise and lights that err leave curves more than 0.7 and distances more than
-// 0.95; published photographs (docs/stability.md) as much.
+// 0.95; published photographs (docs/limitations.md) as much.
 constexpr double kTellingCurve = 0.65;
 constexpr double kTellingDistance = 0.93;
 // Photographs that follow Lambert's law as well as this have nothing to be undone.

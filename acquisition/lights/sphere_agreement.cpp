@@ -12,7 +12,7 @@ namespace nacre {
 namespace {
 
 constexpr size_t kFewestLights = 3;
-constexpr double kLargestSphereTurn = 2; // degrees; real spheres: docs/stability.md
+constexpr double kLargestSphereTurn = 2; // degrees; real spheres: docs/limitations.md
 constexpr double kSigmas = 3;
 
 } // namespace

@@ -16,7 +16,7 @@ namespace {
 
 constexpr size_t kFewestLights = 6; // three for the plane through them, as many again to judge it
 constexpr double kLeastHullArea = 1e-3;
-constexpr size_t kMostUnasked = 40; // components: more cost a frame more than the last of them give (docs/speed.md)
+constexpr size_t kMostUnasked = 40; // components: more cost a frame more than the last of them give (docs/results.md)
 constexpr size_t kSmallestBall = 64;
 constexpr double kBallLoss = kComponentsLoss / 5;
 constexpr size_t kMostBallBytes = size_t{64} << 20;

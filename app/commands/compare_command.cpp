@@ -17,7 +17,7 @@ namespace nacre {
 
 namespace {
 
-constexpr int kCodeTolerance = 4; // of 255: what docs/speed.md counts
+constexpr int kCodeTolerance = 4; // of 255
 
 struct CompareArguments {
     std::filesystem::path picture;
@@ -43,7 +43,7 @@ Image loadForComparison(const std::filesystem::path& file)
     return loadPhotograph(file, header.curveIsDeclared ? header.declaredCurve : TransferCurve::linear);
 }
 
-// The brightest 1 % of the reference's mask values are clipped, as everywhere (docs/accuracy.md).
+// The brightest 1 % of the reference's mask values are clipped, as everywhere (docs/results.md).
 double peakOf(const Image& reference, std::span<const uint8_t> mask)
 {
     std::vector<float> values;

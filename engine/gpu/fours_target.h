@@ -10,7 +10,7 @@ namespace nacre {
 // of the picture's rows and copied to it.
 class FoursTarget {
 public:
-    static constexpr uint32_t kBandPixels = 1 << 18; // 1 MiB; larger bands are no quicker (docs/speed.md)
+    static constexpr uint32_t kBandPixels = 1 << 18; // 1 MiB; larger bands are no quicker
 
     explicit FoursTarget(const Context& context) : context_(context) {}
 

@@ -21,7 +21,7 @@ constexpr std::array kDisplaySizes = {320, 384, 512, 1024, 2048};
 constexpr int kProbeSide = 160; // of the picture of a sphere that is compared
 constexpr float kVisibleStep = 4.0f / 255;
 
-// Nanoseconds a texel on the device that docs/speed.md describes, for a picture under four lights.
+// Nanoseconds a texel on two cores with lavapipe, for a picture under four lights.
 double rebuildCost(const BallSize& size)
 {
     constexpr double kLights = 4, kRadianceTexel = 10, kDisplayTexel = 5;

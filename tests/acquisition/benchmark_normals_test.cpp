@@ -76,7 +76,7 @@ TEST(PsmData, ChromeAndGrayCalibrateTwelveLights)
 }
 
 // The gray sphere under chrome's lights against its own geometry, a record of what stands: half of it is within 4
-// degrees, the mean is not, for which the outer tenth of the radius accounts most (docs/accuracy.md).
+// degrees, the mean is not, for which the outer tenth of the radius accounts most.
 TEST(PsmData, GraySphereHasNormalsOfASphere)
 {
     NACRE_REQUIRE_DATA("psm");
