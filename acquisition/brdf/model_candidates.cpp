@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "acquisition/brdf/low_rank_fit.h"
 #include "acquisition/brdf/shared_basis.h"
 
 namespace nacre {
@@ -17,7 +16,6 @@ struct Shrink {
 constexpr Shrink kVolumes[] = {{1, 1, 1},           {1, 0.5f, 0.5f},     {1, 0.35f, 0.4f},    {0.7f, 0.5f, 0.5f},
                                {0.7f, 0.25f, 0.2f}, {0.5f, 0.25f, 0.2f}, {0.35f, 0.2f, 0.2f}, {0.25f, 0.15f, 0.13f}};
 constexpr Shrink kPlanes[] = {{1, 1, 0}, {1, 0.5f, 0}, {1, 0.2f, 0}, {0.5f, 0.2f, 0}, {0.25f, 0.15f, 0}};
-constexpr int kRanks[] = {1, 2, 3, 5, 8, 12};
 
 glm::ivec3 shrunk(const glm::ivec3& size, const Shrink& shrink)
 {
@@ -90,12 +88,6 @@ std::vector<CompactBrdf> candidateModels(const ModelJudge& judge)
         const std::vector<BasisBrdf> channels = fitBasis({&member, 1}, 3);
         for (int rank = 1; rank <= channels.front().basis->rank; ++rank) {
             candidates.emplace_back(truncated(channels, rank).front());
-        }
-    }
-    const LowRankTable most = lowRankOf(full, *std::max_element(std::begin(kRanks), std::end(kRanks)));
-    for (const int rank : kRanks) {
-        if (rank <= most.rank) {
-            candidates.emplace_back(truncated(most, rank));
         }
     }
     return candidates;

@@ -43,20 +43,6 @@ glm::vec3 lobeAt(const AbcModel& model, const LightView& directions)
     return evaluate(model, {0, 0, 1}, above(directions.l), above(directions.v));
 }
 
-glm::vec3 lowRankValue(const LowRankTable& model, size_t texel)
-{
-    const size_t x = static_cast<size_t>(model.size.x), slice = texel / x, i = texel % x;
-    const size_t sliceSize = static_cast<size_t>(model.size.y) * model.size.z;
-    glm::vec3 sum(0);
-    for (int r = 0; r < model.rank; ++r) {
-        const float weight = model.slices[r * sliceSize + slice];
-        for (int c = 0; c < 3; ++c) {
-            sum[c] += model.profiles[(size_t{3} * r + c) * x + i] * weight;
-        }
-    }
-    return sum;
-}
-
 glm::vec3 combinedValue(const BasisBrdf& model, size_t texel)
 {
     const std::vector<float>& components = model.basis->components;
@@ -78,7 +64,6 @@ std::string nameOf(const CompactBrdf& model)
         Overloaded{
             [](const FittedLobe& m) -> std::string { return m.model.A == glm::vec3(0) ? "Lambert" : "Lambert + lobe"; },
             [](const SmallTable& m) -> std::string { return m.table.size.z == 1 ? "bivariate" : "table"; },
-            [](const LowRankTable& m) { return fmt::format("rank {}", m.rank); },
             [](const BasisBrdf& m) {
                 return fmt::format("{} component{}", m.basis->rank, m.basis->rank == 1 ? "" : "s");
             }},
@@ -113,7 +98,6 @@ size_t bytesOf(const CompactBrdf& model)
                        return sizeof(float) * (m.model.A == glm::vec3(0) ? diffuse : diffuse + lobe);
                    },
                    [](const SmallTable& m) { return m.table.values.size() * bytesPerTexel(m.format); },
-                   [](const LowRankTable& m) { return sizeof(float) * (m.profiles.size() + m.slices.size()); },
                    [](const BasisBrdf& m) { return bytesOf(*m.basis) + sizeof(float) * m.coefficients.size(); }},
         model);
 }
@@ -146,11 +130,6 @@ BrdfTable expandedTable(const CompactBrdf& model, const BrdfTable& covered)
                                      BrdfTable table = m.table;
                                      table.confidence = resampledTable(covered, table.size, table.domain).confidence;
                                      return table;
-                                 },
-                                 [&](const LowRankTable& m) {
-                                     const BrdfTable grid =
-                                         covered.size == m.size ? covered : resampledTable(covered, m.size, m.domain);
-                                     return tableOnGrid(grid, [&](size_t texel) { return lowRankValue(m, texel); });
                                  },
                                  [&](const BasisBrdf& m) {
                                      return tableOnGrid(resampledTable(covered, m.basis->size, m.basis->domain),

@@ -23,15 +23,6 @@ struct SmallTable {
     TexelFormat format = TexelFormat::rgba32f;
 };
 
-// f(thetaH, thetaD, phiD) = sum over r of profiles[r](thetaH, channel) slices[r](thetaD, phiD), on the grid of `size`.
-struct LowRankTable {
-    glm::ivec3 size{0};
-    TableDomain domain{kHalfDifference, kHalfPi};
-    int rank = 0;
-    std::vector<float> profiles; // [(r * 3 + channel) * size.x + i]
-    std::vector<float> slices;   // [(r * size.z + k) * size.y + j]
-};
-
 // Functions on a table's grid, of which the colour channels of several materials are combinations.
 struct BrdfBasis {
     glm::ivec3 size{0};
@@ -46,9 +37,9 @@ struct BasisBrdf {
     std::vector<float> coefficients; // [r * 3 + channel]
 };
 
-using CompactBrdf = std::variant<FittedLobe, SmallTable, LowRankTable, BasisBrdf>;
+using CompactBrdf = std::variant<FittedLobe, SmallTable, BasisBrdf>;
 
-// "Lambert", "Lambert + lobe", "bivariate", "table", "rank 3", "3 components".
+// "Lambert", "Lambert + lobe", "bivariate", "table", "3 components".
 std::string nameOf(const CompactBrdf& model);
 // The same with the table's size and format, where it has one: "table 64x12x12 RGBA16F".
 std::string describe(const CompactBrdf& model);

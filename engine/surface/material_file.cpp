@@ -52,15 +52,6 @@ AbcModel lobeOf(const Json& json)
     return m;
 }
 
-Json saveLowRank(const fs::path& folder, const LowRankTable& m, size_t index)
-{
-    const std::string profiles = fmt::format("material_{}_profiles.exr", index),
-                      slices = fmt::format("material_{}_slices.exr", index);
-    saveRows(folder / profiles, m.profiles, m.size.x);
-    saveRows(folder / slices, m.slices, m.size.y);
-    return {{"kind", "low-rank"}, {"rank", m.rank}, {"profiles", profiles}, {"slices", slices}};
-}
-
 int rankOf(const fs::path& folder, const Json& json)
 {
     const int rank = json.at("rank").get<int>();
@@ -69,14 +60,6 @@ int rankOf(const fs::path& folder, const Json& json)
                     fmt::format("1 to {}", kLargestRank));
     }
     return rank;
-}
-
-LowRankTable loadLowRank(const fs::path& folder, const Json& json, const BrdfTable& covered)
-{
-    LowRankTable m{covered.size, covered.domain, rankOf(folder, json), {}, {}};
-    m.profiles = loadRows(folder / json.at("profiles").get<std::string>(), m.size.x, 3 * m.rank);
-    m.slices = loadRows(folder / json.at("slices").get<std::string>(), m.size.y, m.size.z * m.rank);
-    return m;
 }
 
 glm::ivec3 sizeOf(const fs::path& folder, const Json& json)
@@ -130,9 +113,6 @@ Json MaterialFolder::saveModel(const CompactBrdf& model, size_t index)
     if (const auto* small = std::get_if<SmallTable>(&model)) {
         return {{"kind", "table"}, {"format", nameOf(small->format)}};
     }
-    if (const auto* lowRank = std::get_if<LowRankTable>(&model)) {
-        return saveLowRank(folder_, *lowRank, index);
-    }
     return saveBasis(std::get<BasisBrdf>(model), index);
 }
 
@@ -146,13 +126,10 @@ CompactBrdf MaterialFolder::loadModel(const Json& json, const BrdfTable& covered
     if (kind == "table") {
         return SmallTable{covered, texelFormatFromName(json.at("format").get<std::string>())};
     }
-    if (kind == "low-rank") {
-        return loadLowRank(folder_, json, covered);
-    }
     if (kind == "basis") {
         return loadBasis(json, covered);
     }
-    throw Error(folder_ / "surface.json", "names a model \"" + kind + "\"", "lobe, table, low-rank or basis");
+    throw Error(folder_ / "surface.json", "names a model \"" + kind + "\"", "lobe, table or basis");
 }
 
 Json MaterialFolder::save(const Material& material, size_t index)

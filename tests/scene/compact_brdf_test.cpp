@@ -51,18 +51,21 @@ std::shared_ptr<const BrdfBasis> basis()
 
 std::vector<CompactBrdf> models()
 {
-    LowRankTable lowRank{kSize, kDomain, 2, std::vector<float>(2 * 3 * 30), std::vector<float>(2 * 12 * 10)};
-    for (size_t i = 0; i < lowRank.profiles.size(); ++i) {
-        lowRank.profiles[i] = 0.01f * static_cast<float>(i % 37);
-    }
-    for (size_t i = 0; i < lowRank.slices.size(); ++i) {
-        lowRank.slices[i] = 0.1f + 0.01f * static_cast<float>(i % 11);
-    }
     SmallTable small{resampledTable(fullTable(), {9, 4, 1}, kDomain), TexelFormat::e5b9g9r9};
     for (glm::vec3& value : small.table.values) {
         value = quantised(value, small.format);
     }
-    return {FittedLobe{lobe()}, small, lowRank, BasisBrdf{basis(), {0.5f, 0.3f, 0.1f, 0.2f, 0.1f, 0.4f}}};
+    return {FittedLobe{lobe()}, small, BasisBrdf{basis(), {0.5f, 0.3f, 0.1f, 0.2f, 0.1f, 0.4f}}};
+}
+
+std::string messageOf(const std::filesystem::path& surface)
+{
+    try {
+        loadSurface(surface);
+    } catch (const Error& error) {
+        return error.what();
+    }
+    return {};
 }
 
 TEST(CompactBrdf, ComesBackFromItsFilesWithTheSameTable)
@@ -111,7 +114,7 @@ TEST(CompactBrdf, ResamplesOntoAWiderRangeWithoutCoverage)
 TEST(CompactBrdf, RefusesFilesThatItDoesNotUnderstand)
 {
     const TempFolder folder;
-    saveSurface(folder.path() / "s.nacre", surfaceOf(models()[2]), false);
+    saveSurface(folder.path() / "s.nacre", surfaceOf(models()[0]), false);
     const auto json = folder.path() / "s.nacre" / "surface.json";
     const std::string good = readTextFile(json);
     const auto replaced = [&](const std::string& from, const std::string& to) {
@@ -120,18 +123,17 @@ TEST(CompactBrdf, RefusesFilesThatItDoesNotUnderstand)
         EXPECT_NE(at, std::string::npos) << from;
         writeTextFile(json, text.replace(at, from.size(), to));
     };
-    replaced("\"low-rank\"", "\"spline\"");
-    EXPECT_THROW(loadSurface(folder.path() / "s.nacre"), Error);
-    replaced("\"rank\": 2", "\"rank\": 3"); // the factors have other sizes
-    EXPECT_THROW(loadSurface(folder.path() / "s.nacre"), Error);
-    replaced("\"rank\": 2", "\"rank\": 0");
-    EXPECT_THROW(loadSurface(folder.path() / "s.nacre"), Error);
+    replaced("\"lobe\"", "\"low-rank\"");
+    const std::string message = messageOf(folder.path() / "s.nacre");
+    EXPECT_NE(message.find("surface.json"), std::string::npos) << message;
+    EXPECT_NE(message.find("\"low-rank\""), std::string::npos) << message;
+    EXPECT_NE(message.find("lobe, table"), std::string::npos) << message;
 }
 
 TEST(CompactBrdf, RefusesABasisThatDoesNotGoWithItsMaterial)
 {
     const TempFolder folder;
-    saveSurface(folder.path() / "s.nacre", surfaceOf(models()[3]), false);
+    saveSurface(folder.path() / "s.nacre", surfaceOf(models()[2]), false);
     const auto json = folder.path() / "s.nacre" / "surface.json";
     std::string text = readTextFile(json);
     const size_t at = text.find("\"rank\": 2");
