@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "acquisition/brdf/shared_basis.h"
-
 namespace nacre {
 
 namespace {
@@ -49,15 +47,6 @@ BrdfTable bivariateOf(const BrdfTable& full)
 
 } // namespace
 
-std::vector<glm::ivec3> candidateSizes(const glm::ivec3& size)
-{
-    std::vector<glm::ivec3> sizes;
-    for (const Shrink& shrink : kVolumes) {
-        sizes.push_back(shrunk(size, shrink));
-    }
-    return sizes;
-}
-
 std::vector<CompactBrdf> candidateModels(const ModelJudge& judge)
 {
     const BrdfTable& full = judge.table();
@@ -79,16 +68,8 @@ std::vector<CompactBrdf> candidateModels(const ModelJudge& judge)
             addTable(plane, shrunk(full.size, shrink));
         }
     }
-    for (const glm::ivec3& size : candidateSizes(full.size)) {
-        addTable(full, size);
-    }
-    for (const glm::ivec3& size : candidateSizes(full.size)) {
-        const BrdfTable table = resampledTable(full, size, full.domain);
-        const BasisMember member{&table, judge.peak()};
-        const std::vector<BasisBrdf> channels = fitBasis({&member, 1}, 3);
-        for (int rank = 1; rank <= channels.front().basis->rank; ++rank) {
-            candidates.emplace_back(truncated(channels, rank).front());
-        }
+    for (const Shrink& shrink : kVolumes) {
+        addTable(full, shrunk(full.size, shrink));
     }
     return candidates;
 }

@@ -140,7 +140,6 @@ Acquisition acquire(const Capture& capture, const AcquireOptions& options, const
     for (size_t i = 0; i < reduced.ladders.size(); ++i) {
         result.fits[i].ladder = std::move(reduced.ladders[i]);
     }
-    result.shared = std::move(reduced.shared);
     result.surface = surfaceOf(selectPhotographs(capture, estimate.given), result, std::move(estimate.normals),
                                std::move(albedo), std::move(reduced.materials));
     if (options.residual.choice != ResidualChoice::none) {
