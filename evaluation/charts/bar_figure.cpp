@@ -11,8 +11,8 @@ namespace nacre {
 
 namespace {
 
-constexpr double kWidth = 360, kNames = 104, kTexts = 62; // pixels
-constexpr double kRow = 17, kBar = 11, kSecondRow = 8, kSecondBar = 5, kLegendRow = 18;
+constexpr double kBarsWidth = 360, kNames = 104, kTexts = 62; // pixels
+constexpr double kRow = 17, kBar = 11, kSecondRow = 8, kSecondBar = 5, kBarsLegendRow = 18;
 constexpr size_t kLongestName = 15; // letters
 
 // The end of a name tells photographs apart.
@@ -34,12 +34,12 @@ std::string barOf(const Bar& bar, double y, double full)
     std::string svg = isFirst ? textMark(kNames - 6, middle + 3.5, "end", shortened(bar.name)) : "";
     double x = kNames;
     for (const BarPart& part : bar.parts) {
-        const double left = kWidth - kTexts - x;
-        const double width = std::clamp(part.length / full * (kWidth - kTexts - kNames), 0.0, std::max(0.0, left));
+        const double left = kBarsWidth - kTexts - x;
+        const double width = std::clamp(part.length / full * (kBarsWidth - kTexts - kNames), 0.0, std::max(0.0, left));
         svg += rectangle(x, y, width, height, part.colour);
         x += width;
     }
-    return svg + (bar.text.empty() ? "" : textMark(kWidth - kTexts + 6, middle + 3.5, "start", bar.text));
+    return svg + (bar.text.empty() ? "" : textMark(kBarsWidth - kTexts + 6, middle + 3.5, "start", bar.text));
 }
 
 // Below the bars; answers the end of it.
@@ -48,14 +48,14 @@ double addLegend(const std::vector<BarLegend>& legend, double y, std::string& sv
     double x = 6;
     for (const BarLegend& entry : legend) {
         const double width = labelWidth(entry.meaning) + 22;
-        if (x + width > kWidth && x > 6) {
+        if (x + width > kBarsWidth && x > 6) {
             x = 6;
-            y += kLegendRow;
+            y += kBarsLegendRow;
         }
         svg += rectangle(x, y, 11, 11, entry.colour) + textMark(x + 15, y + 9.5, "start", entry.meaning);
         x += width;
     }
-    return y + kLegendRow;
+    return y + kBarsLegendRow;
 }
 
 } // namespace
@@ -73,7 +73,7 @@ std::string barFigure(const std::vector<Bar>& bars, double full, const std::vect
     return fmt::format(
                "<svg class=\"narrow\" xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0} {1:.0f}\" width=\"{0}\" "
                "height=\"{1:.0f}\" font-family=\"sans-serif\" font-size=\"11\" fill=\"#222\">\n",
-               kWidth, height) +
+               kBarsWidth, height) +
            body + "</svg>\n";
 }
 
