@@ -3,9 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "acquisition/brdf/low_rank_fit.h"
-#include "acquisition/brdf/shared_basis.h"
-
 namespace nacre {
 
 namespace {
@@ -17,7 +14,6 @@ struct Shrink {
 constexpr Shrink kVolumes[] = {{1, 1, 1},           {1, 0.5f, 0.5f},     {1, 0.35f, 0.4f},    {0.7f, 0.5f, 0.5f},
                                {0.7f, 0.25f, 0.2f}, {0.5f, 0.25f, 0.2f}, {0.35f, 0.2f, 0.2f}, {0.25f, 0.15f, 0.13f}};
 constexpr Shrink kPlanes[] = {{1, 1, 0}, {1, 0.5f, 0}, {1, 0.2f, 0}, {0.5f, 0.2f, 0}, {0.25f, 0.15f, 0}};
-constexpr int kRanks[] = {1, 2, 3, 5, 8, 12};
 
 glm::ivec3 shrunk(const glm::ivec3& size, const Shrink& shrink)
 {
@@ -51,15 +47,6 @@ BrdfTable bivariateOf(const BrdfTable& full)
 
 } // namespace
 
-std::vector<glm::ivec3> candidateSizes(const glm::ivec3& size)
-{
-    std::vector<glm::ivec3> sizes;
-    for (const Shrink& shrink : kVolumes) {
-        sizes.push_back(shrunk(size, shrink));
-    }
-    return sizes;
-}
-
 std::vector<CompactBrdf> candidateModels(const ModelJudge& judge)
 {
     const BrdfTable& full = judge.table();
@@ -81,22 +68,8 @@ std::vector<CompactBrdf> candidateModels(const ModelJudge& judge)
             addTable(plane, shrunk(full.size, shrink));
         }
     }
-    for (const glm::ivec3& size : candidateSizes(full.size)) {
-        addTable(full, size);
-    }
-    for (const glm::ivec3& size : candidateSizes(full.size)) {
-        const BrdfTable table = resampledTable(full, size, full.domain);
-        const BasisMember member{&table, judge.peak()};
-        const std::vector<BasisBrdf> channels = fitBasis({&member, 1}, 3);
-        for (int rank = 1; rank <= channels.front().basis->rank; ++rank) {
-            candidates.emplace_back(truncated(channels, rank).front());
-        }
-    }
-    const LowRankTable most = lowRankOf(full, *std::max_element(std::begin(kRanks), std::end(kRanks)));
-    for (const int rank : kRanks) {
-        if (rank <= most.rank) {
-            candidates.emplace_back(truncated(most, rank));
-        }
+    for (const Shrink& shrink : kVolumes) {
+        addTable(full, shrunk(full.size, shrink));
     }
     return candidates;
 }

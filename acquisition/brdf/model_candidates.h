@@ -4,10 +4,7 @@
 namespace nacre {
 
 // Models of one material from Lambert to its full table: fits of formulas, bivariate and full tables of falling sizes
-// in each format, low ranks, and components of its colour channels.
+// in each format.
 std::vector<CompactBrdf> candidateModels(const ModelJudge& judge);
-
-// Sizes that are tried in place of `size`, the largest first.
-std::vector<glm::ivec3> candidateSizes(const glm::ivec3& size);
 
 } // namespace nacre

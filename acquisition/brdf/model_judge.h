@@ -20,7 +20,6 @@ public:
     ModelJudge(const BrdfInterpolant& interpolant, const BrdfTable& full, int threads);
 
     bool isEmpty() const { return judges_.empty(); } // nothing is covered
-    double peak() const { return peak_; }            // f n.l that shows as 1
     const BrdfTable& table() const { return *full_; }
 
     Verdict judge(const CompactBrdf& model) const;
@@ -30,7 +29,7 @@ public:
 
 private:
     std::vector<BrdfMeasurement> judges_; // weight: n.l
-    double peak_ = 1;
+    double peak_ = 1;                     // f n.l that shows as 1
     const BrdfTable* full_;
 };
 

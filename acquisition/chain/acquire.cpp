@@ -158,7 +158,6 @@ Acquisition acquire(const Capture& capture, const AcquireOptions& options, const
     for (size_t i = 0; i < reduced.ladders.size(); ++i) {
         result.fits[i].ladder = std::move(reduced.ladders[i]);
     }
-    result.shared = std::move(reduced.shared);
     result.surface = surfaceOf(capture, prepared, std::move(estimate.normals), result.segmentation.labels,
                                std::move(albedo), std::move(reduced.materials));
     if (options.residual.choice != ResidualChoice::none) {

@@ -1,6 +1,6 @@
 #pragma once
 #include "acquisition/brdf/interpolation_choice.h"
-#include "acquisition/brdf/shared_ladder.h"
+#include "acquisition/brdf/model_ladder.h"
 #include "acquisition/chain/acquire_options.h"
 #include "acquisition/chain/material_samples.h"
 #include "acquisition/chain/normal_estimation.h"
@@ -22,7 +22,6 @@ struct Acquisition {
     Segmentation segmentation;
     SampleCounts samples;          // of all materials' inner pixels
     std::vector<MaterialFit> fits; // one a material
-    SharedLadder shared;           // of several materials, where a smaller model was asked for
     ResidualReport residual;
 };
 

@@ -4,7 +4,7 @@
 
 #include "acquisition/brdf/bake.h"
 #include "acquisition/brdf/interpolation.h"
-#include "acquisition/brdf/shared_ladder.h"
+#include "acquisition/brdf/model_ladder.h"
 #include "engine/surface/surface.h"
 
 namespace nacre {
@@ -20,10 +20,9 @@ struct BakedMaterial {
 struct ReducedMaterials {
     std::vector<Material> materials;
     std::vector<ModelLadder> ladders; // one a material; empty where the full table was asked for
-    SharedLadder shared;              // of several materials
 };
 
-// The materials as small as was asked for, each by itself or together, or with their full tables.
+// The materials as small as was asked for, or with their full tables.
 ReducedMaterials reduceMaterials(std::vector<BakedMaterial> baked, const LadderOptions& options);
 
 } // namespace nacre

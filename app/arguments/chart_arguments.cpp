@@ -95,9 +95,6 @@ void ChartArguments::addTo(CLI::App& command)
     command.add_option("--k", neighbours, "Neighbours tried, N[,N] (default: 5,12,25,50,100)")->delimiter(',');
     command.add_option("--frame-lights", frameLights, "Lights of the frames, N[,N] (default: 1,8,64)")->delimiter(',');
     command.add_option("--frame-size", frameSize, "Of the frames, WxH")->capture_default_str();
-    command.add_option("--write-order", order,
-                       "Write the order in which acquire --budget-time tries candidates, "
-                       "evaluation/candidate_order.inc, from the front of all captures");
     command.add_option("--fits", fits,
                        "Folder of published fits that exemplars use [environment variable NACRE_FITS_DIR]");
     command.add_option("--device", device, "Vulkan device that draws: number or part of its name, see nacre info");

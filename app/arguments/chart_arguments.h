@@ -13,11 +13,10 @@ namespace nacre {
 struct ChartArguments {
     std::vector<std::filesystem::path> captures;
     CaptureOptions capture;
-    std::filesystem::path output;
+    std::filesystem::path output, fits;
     std::vector<std::string> parts{"normals", "brdf", "rendering"};
     std::vector<std::string> methods, lights, neighbours, frameLights;
     std::string frameSize = "1280x720";
-    std::filesystem::path fits, order;
     std::string device;
     int threads = 0;
     bool quiet = false, force = false;

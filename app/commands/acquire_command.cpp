@@ -1,10 +1,8 @@
-#include <chrono>
 #include <memory>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "app/arguments/budget_arguments.h"
 #include "app/arguments/capture_arguments.h"
 #include "app/arguments/destinations.h"
 #include "app/arguments/interpolation_arguments.h"
@@ -32,7 +30,6 @@ struct AcquireArguments {
     InterpolationArguments interpolation;
     LadderArguments ladder;
     ResidualArguments residual;
-    BudgetArguments budget;
     std::filesystem::path report;
     std::string range = "captured";
 };
@@ -75,31 +72,11 @@ void checkOutputs(const AcquireArguments& arguments)
     requireReportDestination(arguments.report, arguments.common.force);
 }
 
-// The surface that the options give, or the best of what is possible in the time.
-BudgetResult acquireAsAsked(const Capture& capture, const AcquireOptions& options, std::optional<double> budgetSeconds,
-                            const std::function<double()>& elapsed, const Progress& progress)
-{
-    if (budgetSeconds) {
-        return acquireWithin(capture, options, candidateOrder(), *budgetSeconds, elapsed, progress);
-    }
-    BudgetResult result;
-    result.options = options;
-    result.acquisition = acquire(capture, options, progress);
-    return result;
-}
-
 // The summary and the pictures that were asked for.
-void writeExtras(const AcquireArguments& arguments, const Capture& given, const BudgetResult& found,
-                 std::optional<double> budgetSeconds)
+void writeExtras(const CaptureArguments& common, const Capture& given, const Acquisition& result)
 {
-    const CaptureArguments& common = arguments.common;
-    const Acquisition& result = found.acquisition;
     if (!common.json.empty()) {
-        nlohmann::json summary = summaryOf(given, result);
-        if (budgetSeconds) {
-            summary["budget"] = documentOf(found, *budgetSeconds);
-        }
-        writeTextFile(common.json, summary.dump(2) + "\n");
+        writeTextFile(common.json, summaryOf(given, result).dump(2) + "\n");
     }
     if (!common.debugFolder.empty()) {
         makeDebugFolder(common.debugFolder);
@@ -113,25 +90,18 @@ void writeExtras(const AcquireArguments& arguments, const Capture& given, const 
 void runAcquire(AcquireArguments& arguments)
 {
     const CaptureArguments& common = arguments.common;
-    const auto start = std::chrono::steady_clock::now();
-    const auto elapsed = [&] {
-        return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    };
     const AcquireOptions options = optionsOf(arguments);
-    const std::optional<double> budgetSeconds = arguments.budget.seconds();
     checkOutputs(arguments);
     const Capture capture = arguments.common.load();
     if (!common.quiet) {
         fmt::print("{}", describe(capture));
     }
     const Progress progress = progressLine(common.quiet);
-    const BudgetResult found = acquireAsAsked(capture, options, budgetSeconds, elapsed, progress);
-    const Acquisition& result = found.acquisition;
+    const Acquisition result = acquire(capture, options, progress);
     endProgressLine(common.quiet);
     saveSurface(arguments.output, result.surface, common.force);
     const Capture given = selectPhotographs(capture, result.estimate.given);
     if (!common.quiet) {
-        fmt::print("{}", budgetSeconds ? describe(found, *budgetSeconds) : "");
         fmt::print("{}{}{}{}{}wrote        {}\n", describeGiven(capture, result.estimate),
                    describe(given, result.estimate.rig), describeNormals(given, result.estimate), describeBrdf(result),
                    describe(result.estimate.times), arguments.output.string());
@@ -139,11 +109,11 @@ void runAcquire(AcquireArguments& arguments)
     if (!common.compareRig.empty() && !common.quiet) {
         fmt::print("{}", describeDisagreement(capture, result.estimate.given, result.estimate.rig, common.compareRig));
     }
-    writeExtras(arguments, given, found, budgetSeconds);
+    writeExtras(common, given, result);
     if (!arguments.report.empty()) {
-        const CaptureReview review = reviewCapture(capture, found.options, result, progress);
+        const CaptureReview review = reviewCapture(capture, options, result, progress);
         endProgressLine(common.quiet);
-        saveReport(arguments.report, reportOf({capture, result, review, budgetSeconds ? &found : nullptr}));
+        saveReport(arguments.report, reportOf({capture, result, review}));
     }
 }
 
@@ -173,7 +143,6 @@ void addAcquireCommand(CLI::App& app)
         ->capture_default_str();
     command->add_option("--table-size", arguments->tableSize, "X,Y,Z texels (default: from the captured range)")
         ->delimiter(',');
-    arguments->budget.addTo(*command);
     command->add_option("--report", arguments->report,
                         "Write report.html into this folder, a page for people; another acquisition holds photographs "
                         "back for it");

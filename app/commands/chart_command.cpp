@@ -13,7 +13,6 @@
 #include "engine/files/error.h"
 #include "engine/files/whole_file.h"
 #include "engine/materials/material_specification.h"
-#include "evaluation/charts/candidate_order.h"
 #include "evaluation/charts/chart_measurement.h"
 #include "evaluation/charts/chart_report.h"
 #include "evaluation/charts/chart_tables.h"
@@ -40,12 +39,8 @@ void stopOnInterrupt()
 }
 
 // Refuses now what it would refuse after the work.
-void checkOutput(const ChartArguments& arguments, const ChartChoices& choices)
+void checkOutput(const ChartArguments& arguments)
 {
-    requireSummaryDestination(arguments.order);
-    if (!arguments.order.empty() && !(choices.normals && choices.brdf)) {
-        throw Error("", "--write-order needs more than --parts gives", "normals and brdf", Error::kUsage);
-    }
     WholeOutput(arguments.output, arguments.force);
     if (fs::exists(arguments.output) && !fs::exists(arguments.output / kReport)) {
         throw Error(arguments.output, "exists and holds no " + std::string(kReport),
@@ -167,7 +162,7 @@ void runChart(const ChartArguments& arguments)
     AcquireOptions options;
     options.normals.fitsFolder = fitsFolderFrom(arguments.fits);
     options.setThreads(arguments.threads);
-    checkOutput(arguments, choices);
+    checkOutput(arguments);
     const std::vector<Capture> captures = loadCaptures(arguments);
     stopOnInterrupt();
     const ChartResult result = measureAll(captures, options, choices, arguments);
@@ -175,9 +170,6 @@ void runChart(const ChartArguments& arguments)
     const ChartRows& rows = result.rows;
     const size_t finished = rows.normals.size() + rows.brdf.size() + rows.rendering.size();
     const std::string missing = writeResults(arguments, rows, remarksOn(result, finished));
-    if (!arguments.order.empty() && !interrupted && result.failures.empty()) {
-        writeTextFile(arguments.order, sourceOf(candidatesFrom(rows)));
-    }
     if (interrupted) {
         throw Error(arguments.output, fmt::format("was interrupted, and has {} settings", finished),
                     "start again with --force for all of them", kInterrupted);

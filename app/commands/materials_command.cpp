@@ -1,18 +1,13 @@
 #include <algorithm>
-#include <chrono>
 #include <memory>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "app/arguments/destinations.h"
-#include "app/arguments/interpolation_arguments.h"
 #include "app/commands/commands.h"
-#include "app/materials/library_packing.h"
 #include "app/materials/material_library.h"
-#include "app/report/acquisition_summary.h"
 #include "app/report/contact_sheet.h"
-#include "app/report/ladder_report.h"
 #include "app/report/material_ball.h"
 #include "engine/files/error.h"
 #include "engine/files/parallel_for.h"
@@ -33,7 +28,6 @@ struct MaterialsArguments {
     std::filesystem::path fits;
     std::filesystem::path output;
     std::filesystem::path json;
-    LadderArguments ladder;
     int threads = 0;
     bool force = false;
     bool quiet = false;
@@ -41,19 +35,13 @@ struct MaterialsArguments {
 
 void checkArguments(const MaterialsArguments& arguments)
 {
-    const std::string extension = arguments.output.extension().string();
-    const bool isReduced = !arguments.ladder.tolerance.empty() || !arguments.ladder.budget.empty();
     if (arguments.places.empty() && arguments.fits.empty()) {
         throw Error("", "no place to look for materials is given", "DIR, a material, or --fits DIR", Error::kUsage);
     }
-    if (!arguments.output.empty() && extension != ".png" && extension != ".nacre") {
-        throw Error(arguments.output, "is nothing that materials writes",
-                    ".png (a sheet of balls) or .nacre (a library)", Error::kUsage);
-    }
-    if (isReduced && extension != ".nacre") {
-        throw Error("", "--tolerance and --budget-bytes make a library", "-o LIBRARY.nacre", Error::kUsage);
-    }
     if (!arguments.output.empty()) {
+        if (arguments.output.extension() != ".png") {
+            throw Error(arguments.output, "is nothing that materials writes", ".png (a sheet of balls)", Error::kUsage);
+        }
         requireDestination(arguments.output, arguments.force);
     }
     requireSummaryDestination(arguments.json);
@@ -88,7 +76,7 @@ Image sheetOf(const std::vector<LibraryEntry>& usable, int threads)
 std::vector<LibraryEntry> entriesOf(const MaterialsArguments& arguments)
 {
     std::vector<LibraryEntry> entries = libraryOf(arguments.places, fitsFolderFrom(arguments.fits));
-    if (!arguments.fits.empty() && (arguments.places.empty() || arguments.output.extension() != ".nacre")) {
+    if (!arguments.fits.empty()) {
         std::vector<LibraryEntry> fits = fitEntries(arguments.fits);
         std::move(fits.begin(), fits.end(), std::back_inserter(entries));
     }
@@ -120,74 +108,10 @@ void listMaterials(const MaterialsArguments& arguments)
     }
 }
 
-std::vector<std::string> specificationsOf(const MaterialsArguments& arguments)
-{
-    std::vector<std::string> specifications;
-    for (const LibraryEntry& entry : entriesOf(arguments)) {
-        if (!entry.problem.empty()) {
-            throw Error("", entry.problem, "materials that can be used: all of them are packed");
-        }
-        specifications.push_back(entry.specification);
-    }
-    if (specifications.empty()) {
-        throw Error("", arguments.places.front() + ": holds no material",
-                    "NAME.nacre, .binary, .bsdf or our .exr tables");
-    }
-    return specifications;
-}
-
-const SharedStep& takenStep(const SharedLadder& shared)
-{
-    return shared.taken ? shared.steps[*shared.taken] : shared.apart;
-}
-
-void print(const PackedLibrary& library)
-{
-    for (size_t i = 0; i < library.ladders.size(); ++i) {
-        if (const std::string ladder = describe(library.ladders[i]); !ladder.empty()) {
-            fmt::print("{}\n{}", library.surface.materials[i].name, ladder);
-        }
-    }
-    fmt::print("{}full tables  {} bytes\n", describe(library.shared), library.fullBytes);
-}
-
-nlohmann::json summaryOf(const PackedLibrary& library, double seconds)
-{
-    const SharedLadder& shared = library.shared;
-    const auto jsonOf = [](const SharedStep& step) {
-        return nlohmann::json{
-            {"description", step.description}, {"bytes", step.bytes}, {"worstDecibels", step.leastPsnr}};
-    };
-    nlohmann::json json = {
-        {"materials", library.surface.materials.size()}, {"fullBytes", library.fullBytes}, {"seconds", seconds}};
-    if (shared.apart.bytes > 0) {
-        json["apart"] = jsonOf(shared.apart);
-        json["taken"] = jsonOf(takenStep(shared));
-    }
-    return json;
-}
-
-void packMaterials(const MaterialsArguments& arguments)
-{
-    const auto start = std::chrono::steady_clock::now();
-    const PackedLibrary library = packedLibrary(specificationsOf(arguments), fitsFolderFrom(arguments.fits),
-                                                arguments.ladder.options(arguments.threads));
-    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    saveSurface(arguments.output, library.surface, arguments.force);
-    if (!arguments.quiet) {
-        print(library);
-        fmt::print("packed       {} materials in {:.1f} seconds\nwrote        {}\n", library.surface.materials.size(),
-                   seconds, arguments.output.string());
-    }
-    if (!arguments.json.empty()) {
-        writeTextFile(arguments.json, summaryOf(library, seconds).dump(2) + "\n");
-    }
-}
-
 void runMaterials(const MaterialsArguments& arguments)
 {
     checkArguments(arguments);
-    arguments.output.extension() == ".nacre" ? packMaterials(arguments) : listMaterials(arguments);
+    listMaterials(arguments);
 }
 
 } // namespace
@@ -195,24 +119,20 @@ void runMaterials(const MaterialsArguments& arguments)
 void addMaterialsCommand(CLI::App& app)
 {
     auto arguments = std::make_shared<MaterialsArguments>();
-    CLI::App* command = app.add_subcommand("materials", "What materials there are, as a list and as balls; a library");
+    CLI::App* command = app.add_subcommand("materials", "What materials there are, as a list and as balls");
     command->add_option("PLACE", arguments->places,
                         "Folders to look in (and one level below), or materials by name: NAME.nacre[#MATERIAL], "
                         ".binary, .bsdf, .exr, merl-abc:NAME, ...");
     command->add_option("--fits", arguments->fits,
                         "List the published fits too: folder of merl_abc_params.csv and merl_sgd_params.csv");
-    command->add_option("-o,--output", arguments->output,
-                        "Sheet of balls (.png), or all of them packed into LIBRARY.nacre, one ball each");
-    arguments->ladder.addTo(*command);
-    command->add_option("--json", arguments->json, "Write the list, or the packing's figures, to this file");
+    command->add_option("-o,--output", arguments->output, "Sheet of balls (.png)");
+    command->add_option("--json", arguments->json, "Write the list to this file");
     command->add_option("--threads", arguments->threads, "Threads (0: all)")
         ->check(CLI::NonNegativeNumber)
         ->capture_default_str();
     command->add_flag("--force", arguments->force, "Replace an output that exists");
     command->add_flag("--quiet", arguments->quiet, "Print nothing");
-    command->footer("Example:\n  nacre materials . -o balls.png\n"
-                    "  nacre materials horse.nacre paper_white_rgb.bsdf --tolerance 45dB -o library.nacre\n"
-                    "  nacre transfer --materials library.nacre#horse --onto make:cloth --rig key -o out");
+    command->footer("Example:\n  nacre materials . -o balls.png");
     command->callback([arguments] { runMaterials(*arguments); });
 }
 

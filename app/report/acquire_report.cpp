@@ -108,21 +108,6 @@ std::string materials(const ReportSubject& subject, const std::vector<ReportPict
     return html;
 }
 
-std::string budget(const BudgetResult& found)
-{
-    std::string rows;
-    for (const BudgetTrial& trial : found.trials) {
-        const bool kept = commandLineOf(trial.candidate) == commandLineOf(found.kept);
-        rows += tableRow({commandLineOf(trial.candidate), fmt::format("{:.2f}", trial.seconds),
-                          trial.psnr ? fmt::format("{:.2f}", *trial.psnr) : trial.refusal, kept ? "kept" : ""},
-                         kept ? "default" : "");
-    }
-    return heading("What was tried in the time") +
-           (rows.empty() ? "" : tableOf({"options", "seconds", "held-out PSNR, dB", ""}, rows)) +
-           paragraph(fmt::format("Kept: {}{}{}. {} candidates were not tried.", commandLineOf(found.kept),
-                                 found.comment.empty() ? "" : "; ", found.comment, found.untried));
-}
-
 } // namespace
 
 std::string reportOf(const ReportSubject& subject)
@@ -133,9 +118,6 @@ std::string reportOf(const ReportSubject& subject)
         photographs.push_back(pictures.photograph(photograph.thumbnail, photograph.name));
     }
     std::string html = pageHead("Nacre: " + subject.capture.name, subject.capture.name) + overview(subject);
-    if (subject.budget) {
-        html += budget(*subject.budget);
-    }
     html += heading("Normals") + sheetOf(pictures.ofSurface(subject.capture, subject.acquisition), "sheet large") +
             predictionSection(subject) +
             materials(subject, pictures.ofMaterials(subject.acquisition.surface.materials)) + lightSection(subject) +

@@ -1,8 +1,6 @@
 #pragma once
 #include <filesystem>
-#include <optional>
 
-#include "evaluation/charts/budget_search.h"
 #include "evaluation/held_out/capture_review.h"
 
 namespace nacre {
@@ -12,7 +10,6 @@ struct ReportSubject {
     const Capture& capture;
     const Acquisition& acquisition;
     const CaptureReview& review;
-    const BudgetResult* budget = nullptr; // where time was budgeted
 };
 
 // One page for people: photographs, lights, verdicts, normals, the BRDF's coverage and model, and how well every

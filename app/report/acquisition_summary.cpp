@@ -82,7 +82,7 @@ std::string describeTables(const Acquisition& acquisition)
                 fmt::format("table        {}{}\n", describe(material.table),
                             acquisition.fits.size() > 1 ? " (" + material.name + ")" : "");
     }
-    return text + describe(acquisition.shared);
+    return text;
 }
 
 } // namespace

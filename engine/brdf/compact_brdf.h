@@ -1,5 +1,4 @@
 #pragma once
-#include <memory>
 #include <string>
 #include <variant>
 #include <vector>
@@ -23,41 +22,17 @@ struct SmallTable {
     TexelFormat format = TexelFormat::rgba32f;
 };
 
-// f(thetaH, thetaD, phiD) = sum over r of profiles[r](thetaH, channel) slices[r](thetaD, phiD), on the grid of `size`.
-struct LowRankTable {
-    glm::ivec3 size{0};
-    TableDomain domain{kHalfDifference, kHalfPi};
-    int rank = 0;
-    std::vector<float> profiles; // [(r * 3 + channel) * size.x + i]
-    std::vector<float> slices;   // [(r * size.z + k) * size.y + j]
-};
+using CompactBrdf = std::variant<FittedLobe, SmallTable>;
 
-// Functions on a table's grid, of which the colour channels of several materials are combinations.
-struct BrdfBasis {
-    glm::ivec3 size{0};
-    TableDomain domain{kHalfDifference, kHalfPi};
-    int rank = 0;
-    std::vector<float> components; // [r * texels + texel], values that a 16-bit float holds
-};
-
-// f of a channel = sum over r of coefficients[r](channel) component r.
-struct BasisBrdf {
-    std::shared_ptr<const BrdfBasis> basis;
-    std::vector<float> coefficients; // [r * 3 + channel]
-};
-
-using CompactBrdf = std::variant<FittedLobe, SmallTable, LowRankTable, BasisBrdf>;
-
-// "Lambert", "Lambert + lobe", "bivariate", "table", "rank 3", "3 components".
+// "Lambert", "Lambert + lobe", "bivariate", "table".
 std::string nameOf(const CompactBrdf& model);
 // The same with the table's size and format, where it has one: "table 64x12x12 RGBA16F".
 std::string describe(const CompactBrdf& model);
-// Of what it takes in memory, a basis included; coverage apart.
+// Of what it takes in memory, coverage apart.
 size_t bytesOf(const CompactBrdf& model);
-size_t bytesOf(const BrdfBasis& basis);
 
-// The table that the renderer looks up, with the coverage of `covered`, sampled where grids differ: a small table as it
-// is, the others on covered's grid. f is never negative.
+// The table that the renderer looks up, with the coverage of `covered`: a small table as it is, a lobe on covered's
+// grid. f is never negative.
 BrdfTable expandedTable(const CompactBrdf& model, const BrdfTable& covered);
 
 // `table` on another grid, trilinear; domains differ in thetaDMax alone. What lies beyond the table's own range has its

@@ -114,9 +114,8 @@ Surface surfaceOf(const fs::path& folder, const Json& json)
     Surface surface;
     surface.scale = json.at("scale") == "absolute" ? RadianceScale::absolute : RadianceScale::relative;
     surface.normals = loadNormalMap(folder / json.at("normals").get<std::string>());
-    MaterialFolder materials(folder);
     for (const Json& material : json.at("materials")) {
-        surface.materials.push_back(materials.load(material));
+        surface.materials.push_back(loadMaterialFiles(folder, material));
     }
     if (json.contains("parts")) {
         surface.parts = json.at("parts").get<std::vector<std::string>>();
@@ -163,9 +162,8 @@ void saveSurface(const fs::path& folder, const Surface& surface, bool replace)
         saveImage(to / "height.exr", surface.height, PixelType::float32);
     }
     Json json = describe(surface);
-    MaterialFolder materials(to);
     for (size_t i = 0; i < surface.materials.size(); ++i) {
-        json["materials"].push_back(materials.save(surface.materials[i], i));
+        json["materials"].push_back(saveMaterialFiles(to, surface.materials[i], i));
     }
     if (!surface.residual.empty()) {
         json["residual"] = saveResidual(to, surface.residual);

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <set>
 
 #include "acquisition/capture/capture_window.h"
 #include "acquisition/capture/matlab_normals.h"
@@ -106,11 +105,8 @@ AngularError errorAgainstTruth(const Capture& capture, const NormalMap& normals,
 size_t modelBytes(const Surface& surface)
 {
     size_t bytes = 0;
-    std::set<const BrdfBasis*> counted;
     for (const Material& material : surface.materials) {
-        const BasisBrdf* shared = material.compact ? std::get_if<BasisBrdf>(&*material.compact) : nullptr;
-        const bool again = shared && !counted.insert(shared->basis.get()).second;
-        bytes += bytesOf(material) - (again ? bytesOf(*shared->basis) : 0);
+        bytes += bytesOf(material);
     }
     return bytes;
 }

@@ -5,7 +5,6 @@
 #include <glm/geometric.hpp>
 
 #include "acquisition/brdf/lobe_fit.h"
-#include "acquisition/brdf/low_rank_fit.h"
 #include "acquisition/brdf/model_ladder.h"
 #include "engine/brdf/brdf_tabulation.h"
 
@@ -99,32 +98,6 @@ TEST(LobeFit, FindsTheLobeThatMadeTheData)
     }
     EXPECT_EQ(fitLambert(measurements).A, glm::vec3(0));
     EXPECT_GT(fitLambert(measurements).kD.x, truth.kD.x);
-}
-
-TEST(LowRank, IsExactForProductsAndBetterWithEachRank)
-{
-    BrdfTable product({20, 8, 6}, kDomain);
-    for (size_t texel = 0; texel < product.values.size(); ++texel) {
-        const float i = static_cast<float>(texel % 20), slice = static_cast<float>(texel / 20);
-        product.values[texel] = glm::vec3(1, 2, 3) * std::exp(-0.2f * i) * (1 + 0.1f * slice);
-        product.confidence[texel] = 1;
-    }
-    const BrdfTable expanded = expandedTable(lowRankOf(product, 1), product);
-    for (size_t texel = 0; texel < product.values.size(); ++texel) {
-        EXPECT_LT(glm::length(expanded.values[texel] - product.values[texel]),
-                  1e-4f * glm::length(product.values[texel])); // float's SVD
-    }
-    const BrdfTable full = fullTableOf(kRoughPlastic);
-    double before = 1e30;
-    for (const int rank : {1, 2, 4, 8}) {
-        const BrdfTable table = expandedTable(lowRankOf(full, rank), full);
-        double error = 0;
-        for (size_t texel = 0; texel < full.values.size(); ++texel) {
-            error += glm::length(table.values[texel] - full.values[texel]);
-        }
-        EXPECT_LT(error, before);
-        before = error;
-    }
 }
 
 } // namespace

@@ -21,20 +21,12 @@ TEST(ChartCommand, WritesTablesPicturesAndOneReport)
 {
     const TempFolder folder;
     const std::string output = (folder / "charts").string();
-    std::vector<std::string> arguments = {"chart",
-                                          makeSmallCapture(folder),
-                                          "-o",
-                                          output,
-                                          "--methods",
-                                          "least-squares,consensus",
-                                          "--lights",
-                                          "all,6",
-                                          "--k",
-                                          "25",
-                                          "--parts",
-                                          "normals,brdf",
-                                          "--write-order",
-                                          (folder / "order.inc").string()};
+    std::vector<std::string> arguments = {"chart",     makeSmallCapture(folder),
+                                          "-o",        output,
+                                          "--methods", "least-squares,consensus",
+                                          "--lights",  "all,6",
+                                          "--k",       "25",
+                                          "--parts",   "normals,brdf"};
     const ProgramRun run = runNacre(arguments);
     ASSERT_EQ(run.exitCode, 0) << run.err;
     EXPECT_NE(run.err.find("settings left"), std::string::npos) << run.err;
@@ -42,7 +34,6 @@ TEST(ChartCommand, WritesTablesPicturesAndOneReport)
     EXPECT_EQ(linesOf(readTextFile(folder / "charts" / "normals.csv")), 1u + 4);
     EXPECT_EQ(linesOf(readTextFile(folder / "charts" / "brdf.csv")), 1u + 18);
     EXPECT_NE(readTextFile(folder / "charts" / "report.html").find("</html>"), std::string::npos);
-    EXPECT_NE(readTextFile(folder / "order.inc").find("{NormalMethod::"), std::string::npos);
     size_t pictures = 0;
     for (const auto& entry : fs::directory_iterator(folder / "charts")) {
         pictures += entry.path().extension() == ".svg";
@@ -140,7 +131,6 @@ TEST(ChartCommand, RefusesWhatItDoesNotKnow)
     expectRefusal({"--k", "513"}, 2, "--k 513");
     expectRefusal({"--frame-lights", "0"}, 2, "--frame-lights 0");
     expectRefusal({"--frame-size", "0x9"}, 2, "--frame-size");
-    expectRefusal({"--parts", "normals", "--write-order", "o.inc"}, 2, "--write-order");
 }
 
 TEST(EvaluateCommand, TellsPhotographsNormalsBytesAndShowsTheWorst)

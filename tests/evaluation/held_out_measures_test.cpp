@@ -58,13 +58,6 @@ TEST(HeldOutMeasures, BytesAreThoseOfTheTablesOrOfWhatReplacedThem)
     small.compact = SmallTable{BrdfTable({2, 2, 2}, {}), TexelFormat::e5b9g9r9};
     surface.materials = {full, small};
     EXPECT_EQ(modelBytes(surface), 4u * 3 * 2 * 16 + 2 * 2 * 2 * 4);
-    const auto basis = std::make_shared<BrdfBasis>();
-    basis->components.resize(8);
-    basis->rank = 1;
-    basis->size = {2, 2, 2};
-    full.compact = small.compact = BasisBrdf{basis, {1, 1, 1}};
-    surface.materials = {full, small};
-    EXPECT_EQ(modelBytes(surface), 2 * bytesOf(*full.compact) - bytesOf(*basis)) << "the shared basis counts once";
 }
 
 } // namespace
