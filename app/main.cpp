@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "app/command_texts.h"
 #include "app/commands/commands.h"
 #include "engine/files/error.h"
 
@@ -32,11 +33,27 @@ nacre::Error usageError(const CLI::App& app, const CLI::ParseError& e)
     return {"", text, fmt::format("see nacre {} --help", commands.front()->get_name()), nacre::Error::kUsage};
 }
 
+// Not in --help: the build makes the files from them that an installation holds.
+void addTexts(CLI::App& app)
+{
+    const auto print = [&app](const char* flag, auto text) {
+        app.add_flag_callback(flag,
+                              [text] {
+                                  std::fputs(text().c_str(), stdout);
+                                  throw CLI::Success();
+                              })
+            ->group("");
+    };
+    print("--bash-completion", [&app] { return nacre::bashCompletion(app); });
+    print("--man-page", [&app] { return nacre::manPage(app, NACRE_VERSION); });
+}
+
 int runCommandLine(int argc, char** argv)
 {
     CLI::App app("Nacre measures materials from photographs under a moving light and relights them.");
     app.set_version_flag("--version", "nacre " NACRE_VERSION);
     app.require_subcommand(1);
+    addTexts(app);
     nacre::addAcquireCommand(app);
     nacre::addNormalsCommand(app);
     nacre::addCalibrateCommand(app);

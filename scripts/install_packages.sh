@@ -1,5 +1,5 @@
-# Sourced by demo.sh and test.sh: makes sure that what apt.txt lists is installed.
-packages=$(sed -e 's/#.*//' -e 's/[[:space:]].*//' apt.txt | grep -v '^$')
+# Sourced by demo.sh and test.sh: makes sure that what apt.txt lists is installed, without the tests' part for `program_only=1`.
+packages=$(sed -e "${program_only:+/^# Tests/,\$d}" -e 's/#.*//' -e 's/[[:space:]].*//' apt.txt | grep -v '^$')
 missing=
 if command -v dpkg-query >/dev/null && command -v apt-get >/dev/null; then
     installed=$(dpkg-query -W -f '${Package} ${Status}\n' $packages 2>/dev/null | sed -n 's/ .* ok installed$//p') || true

@@ -20,9 +20,9 @@ glm::vec3 unitOfTexel(const BrdfTable& table, size_t texel)
 // Light or view can be below the horizon in a corner of the grid; there the lobe's value at the horizon will do.
 glm::vec3 lobeAt(const AbcModel& model, const LightView& directions)
 {
-    static constexpr float kLeastCosine = 1e-3f;
+    static constexpr float kGrazingCosine = 1e-3f;
     const auto above = [](glm::vec3 d) {
-        d.z = std::max(d.z, kLeastCosine);
+        d.z = std::max(d.z, kGrazingCosine);
         return glm::normalize(d);
     };
     return evaluate(model, {0, 0, 1}, above(directions.l), above(directions.v));

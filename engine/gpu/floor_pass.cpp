@@ -10,13 +10,13 @@ namespace {
 
 Pipeline floorPipeline(const Context& context, bool plain)
 {
-    static constexpr std::array kBindings = {ShaderBinding{kBindingNormals, kTextureInput},
-                                             ShaderBinding{kBindingAlbedo, kTextureInput}};
+    static constexpr std::array kFloorBindings = {ShaderBinding{kBindingNormals, kTextureInput},
+                                                  ShaderBinding{kBindingAlbedo, kTextureInput}};
     static_assert(kConstantModulated == 0);
     const std::array constants = {int{!plain}};
     return Pipeline(context, {.fragmentShader = floor_frag,
                               .constants = constants,
-                              .bindings = kBindings,
+                              .bindings = kFloorBindings,
                               .pushConstantBytes = sizeof(FloorConstants),
                               .targetFormat = kIntegersFormat});
 }

@@ -22,14 +22,14 @@ double meanError(const std::string& object, NormalMethod method)
 
 // Shi et al., A Benchmark Dataset and Evaluation for Non-Lambertian and Uncalibrated Photometric Stereo, 2019: least
 // squares has 4.10 degrees on ball and 8.39 on bear. Theirs clips observations at 1, ours does not: 0.1.
-TEST(DiligentData, LeastSquaresReproducesThePublishedErrors)
+TEST(DiligentDataSlow, LeastSquaresReproducesThePublishedErrors)
 {
     NACRE_REQUIRE_DATA("diligent");
     EXPECT_NEAR(meanError("ballPNG", NormalMethod::leastSquares), 4.10, 0.1);
     EXPECT_NEAR(meanError("bearPNG", NormalMethod::leastSquares), 8.39, 0.1);
 }
 
-TEST(DiligentData, RobustNormalsHoldTheirFigures)
+TEST(DiligentDataSlow, RobustNormalsHoldTheirFigures)
 {
     NACRE_REQUIRE_DATA("diligent");
     EXPECT_LE(meanError("ballPNG", NormalMethod::consensus), 1.96);
@@ -38,7 +38,7 @@ TEST(DiligentData, RobustNormalsHoldTheirFigures)
     EXPECT_LE(meanError("bearPNG", NormalMethod::automatic), 4.9);
 }
 
-TEST(DiligentData, TruthIsTheSameAsMatlabAndAsPicture)
+TEST(DiligentDataSlow, TruthIsTheSameAsMatlabAndAsPicture)
 {
     NACRE_REQUIRE_DATA("diligent");
     const std::filesystem::path folder = dataFolder() / "diligent" / "ballPNG";

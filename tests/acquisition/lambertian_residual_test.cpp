@@ -41,7 +41,7 @@ TEST(LambertianResidual, IsNothingForLambertAndMuchForGloss)
 
 // Directions are given, intensities are not: they come from the object's photographs alone. The published toolbox's
 // strengths make 0.55 to 1.28 of them.
-TEST(PsboxData, IntensitiesComeFromThePhotographsAlone)
+TEST(PsboxDataSlow, IntensitiesComeFromThePhotographsAlone)
 {
     NACRE_REQUIRE_DATA("psbox");
     const std::string data = (dataFolder() / "psbox" / "data").string();

@@ -76,7 +76,7 @@ Capture writeCapture(const fs::path& folder, int count, int width, int height, c
     return capture;
 }
 
-TEST(ObservationsMemory, SameForAllBudgetsAndThreads)
+TEST(ObservationsMemorySlow, SameForAllBudgetsAndThreads)
 {
     const TempFolder folder;
     const Capture capture = writeCapture(folder.path(), 12, 1000, 700, ".png");

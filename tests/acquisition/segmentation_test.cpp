@@ -76,7 +76,7 @@ double agreement(const Segmentation& found, const SynthScene& truth)
     return static_cast<double>(agreeing) / static_cast<double>(compared);
 }
 
-TEST(Segmentation, WhiteBlackAndRedAreThreeMaterialsWhateverTheNoise)
+TEST(SegmentationSlow, WhiteBlackAndRedAreThreeMaterialsWhateverTheNoise)
 {
     for (const double noise : {0.002, 0.005, 0.02}) {
         const TempFolder folder;
@@ -93,7 +93,7 @@ TEST(Segmentation, WhiteBlackAndRedAreThreeMaterialsWhateverTheNoise)
     }
 }
 
-TEST(Segmentation, OneMaterialIsNotSplitByShadowsHighlightsOrAMetalsShine)
+TEST(SegmentationSlow, OneMaterialIsNotSplitByShadowsHighlightsOrAMetalsShine)
 {
     for (const char* material : {"lambert:0.6,0.5,0.4", "ggx:diffuse=0.5,0.3,0.2;specular=0.04,0.04,0.04;alpha=0.05",
                                  "ggx:diffuse=0.1,0.1,0.3;specular=0.1,0.1,0.1;alpha=0.2",
@@ -134,7 +134,7 @@ double roundTrip(const Acquisition& result, const Capture& capture)
     return radiancePsnr(renderReference(scene), photograph, capture.mask, quantile(values, 0.99));
 }
 
-TEST(Segmentation, ThreeMaterialsRenderThePhotographBetterThanOne)
+TEST(SegmentationSlow, ThreeMaterialsRenderThePhotographBetterThanOne)
 {
     const TempFolder folder;
     SynthOptions synth = threeMaterials();
@@ -217,7 +217,7 @@ TEST(Segmentation, AsManyAreFoundAsAreAskedForAndNoMoreThanPixels)
     expectError([&] { acquire(tiny, finding(kMostMaterials), kSilent); }, {"auto:64", "pixels"});
 }
 
-TEST(Segmentation, SameBytesForOneAndTwoThreadsAndAnyBudget)
+TEST(SegmentationSlow, SameBytesForOneAndTwoThreadsAndAnyBudget)
 {
     const TempFolder folder;
     SynthOptions synth = threeMaterials();

@@ -125,7 +125,7 @@ TEST(SyntheticChain, RenderingWithACapturedLightGivesThePhotographBack)
     EXPECT_GT(psnr, 30);
 }
 
-TEST(SyntheticChain, SameBytesForOneAndTwoThreadsAndAnyBudget)
+TEST(SyntheticChainSlow, SameBytesForOneAndTwoThreadsAndAnyBudget)
 {
     const TempFolder folder;
     SynthOptions synth;

@@ -90,7 +90,7 @@ TEST(WovenCloth, ShowsTheYarnThatThePatternPutsOnTop)
 
 // A loop's legs lie over the head of the loop below and over the feet of the row above; with one course to a stripe
 // labels tell the courses apart.
-TEST(Knit, LegsLieOnTopOfHeadsAndFeet)
+TEST(KnitSlow, LegsLieOnTopOfHeadsAndFeet)
 {
     KnitOptions options;
     options.loops = 8;

@@ -67,7 +67,7 @@ TEST(TargetSpecification, MalformedOnesAreRefused)
     EXPECT_THROW(makeTarget("cloth", 1, 64), Error);
 }
 
-TEST(TargetSpecification, DefaultsAreWhatTheirDescriptionSays)
+TEST(TargetSpecificationSlow, DefaultsAreWhatTheirDescriptionSays)
 {
     const std::pair<const char*, const char*> kSame[] = {
         {"cloth", "cloth:plain,threads=32,curl=0.5,drape=0.35,wander=1,seed=1"},
@@ -81,7 +81,7 @@ TEST(TargetSpecification, DefaultsAreWhatTheirDescriptionSays)
     }
 }
 
-TEST(TargetSpecification, EveryKeyChangesTheTarget)
+TEST(TargetSpecificationSlow, EveryKeyChangesTheTarget)
 {
     std::map<std::string, std::vector<glm::vec3>> made; // of defaults
     for (const char* specification :
