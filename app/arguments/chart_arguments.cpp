@@ -62,7 +62,8 @@ ChartChoices ChartArguments::choices() const
         chosen.lightsGiven.clear();
     }
     for (const std::string& count : lights) {
-        chosen.lightsGiven.push_back(count == "all" ? 0 : numberFrom("--lights", count, kFewestLightsGiven, 100000));
+        chosen.lightsGiven.push_back(count == "all" ? 0
+                                                    : numberFrom("--lights-given", count, kFewestLightsGiven, 100000));
     }
     if (!neighbours.empty()) {
         chosen.neighbours.clear();
@@ -91,7 +92,8 @@ void ChartArguments::addTo(CLI::App& command)
     command.add_option("--parts", parts, "normals, brdf, rendering (default: all)")->delimiter(',');
     command.add_option("--methods", methods, "NAME[,NAME] of " + normalMethodNames() + " (default: all)")
         ->delimiter(',');
-    command.add_option("--lights", lights, "COUNT[,COUNT] of photographs given (default: all,36,12,6)")->delimiter(',');
+    command.add_option("--lights-given", lights, "COUNT[,COUNT] of photographs given (default: all,36,12,6)")
+        ->delimiter(',');
     command.add_option("--k", neighbours, "Neighbours tried, N[,N] (default: 5,12,25,50,100)")->delimiter(',');
     command.add_option("--frame-lights", frameLights, "Lights of the frames, N[,N] (default: 1,8,64)")->delimiter(',');
     command.add_option("--frame-size", frameSize, "Of the frames, WxH")->capture_default_str();
