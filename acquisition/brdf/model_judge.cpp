@@ -72,7 +72,7 @@ double peakOf(const std::vector<BrdfMeasurement>& judges)
             values.push_back(judge.f[c] * judge.weight);
         }
     }
-    return std::max(quantile(values, 0.99), std::numeric_limits<float>::min());
+    return peakOf(values);
 }
 
 // Of this thread's own work: others on the machine do not count.

@@ -1,4 +1,3 @@
-#include <chrono>
 #include <memory>
 
 #include <fmt/format.h>
@@ -17,6 +16,7 @@
 #include "app/report/progress_line.h"
 #include "app/report/verdict_pictures.h"
 #include "engine/files/error.h"
+#include "engine/files/stopwatch.h"
 #include "engine/files/whole_file.h"
 
 namespace nacre {
@@ -113,10 +113,8 @@ void writeExtras(const AcquireArguments& arguments, const Capture& given, const 
 void runAcquire(AcquireArguments& arguments)
 {
     const CaptureArguments& common = arguments.common;
-    const auto start = std::chrono::steady_clock::now();
-    const auto elapsed = [&] {
-        return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    };
+    const Stopwatch watch;
+    const auto elapsed = [&] { return watch.seconds(); };
     const AcquireOptions options = optionsOf(arguments);
     const std::optional<double> budgetSeconds = arguments.budget.seconds();
     checkOutputs(arguments);

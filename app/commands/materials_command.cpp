@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <chrono>
 #include <memory>
 
 #include <fmt/format.h>
@@ -16,6 +15,7 @@
 #include "app/report/material_ball.h"
 #include "engine/files/error.h"
 #include "engine/files/parallel_for.h"
+#include "engine/files/stopwatch.h"
 #include "engine/files/whole_file.h"
 #include "engine/materials/material_specification.h"
 
@@ -74,7 +74,7 @@ Image sheetOf(const std::vector<LibraryEntry>& usable, int threads)
     parallelFor(usable.size(), 1, threads, [&](size_t first, size_t last) {
         for (size_t i = first; i < last; ++i) {
             const Image radiance = materialThumbnail(usable[i].model, kBallSize);
-            balls[i] = displayImage(radiance, automaticExposure(radiance));
+            balls[i] = displayedImage(radiance, {.exposureStops = automaticExposure(radiance)});
         }
     });
     const size_t columns = std::min(kMostColumns, usable.size());
@@ -169,10 +169,10 @@ nlohmann::json summaryOf(const PackedLibrary& library, double seconds)
 
 void packMaterials(const MaterialsArguments& arguments)
 {
-    const auto start = std::chrono::steady_clock::now();
+    const Stopwatch watch;
     const PackedLibrary library = packedLibrary(specificationsOf(arguments), fitsFolderFrom(arguments.fits),
                                                 arguments.ladder.options(arguments.threads));
-    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    const double seconds = watch.seconds();
     saveSurface(arguments.output, library.surface, arguments.force);
     if (!arguments.quiet) {
         print(library);

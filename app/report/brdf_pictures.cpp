@@ -119,8 +119,8 @@ Image ballsSheet(const BrdfModel& model, int threads)
         stops = rows[0].empty() ? std::round(automaticExposure(radiance) * 10) / 10 + 0.0f : stops; // no -0.0
         for (int r = 0; r < 2; ++r) {
             const float shown = stops + kBrighterStops * static_cast<float>(r);
-            rows[r].push_back(
-                {displayImage(radiance, shown), fmt::format("light {} degrees, {:.1f} stops", degrees, shown)});
+            rows[r].push_back({displayedImage(radiance, {.exposureStops = shown}),
+                               fmt::format("light {} degrees, {:.1f} stops", degrees, shown)});
         }
     }
     return contactSheet(rows, kBrdfBallSize, kBrdfBallSize);

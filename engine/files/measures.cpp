@@ -57,6 +57,42 @@ float quantile(std::vector<float>& values, double q)
     return first + static_cast<float>(position - static_cast<double>(low)) * (second - first);
 }
 
+float peakOf(std::vector<float>& values)
+{
+    const float peak = values.empty() ? 0 : quantile(values, 0.99);
+    return peak > 0 ? peak : 1;
+}
+
+float peakOf(std::span<const glm::vec3> radiance, size_t mostValues)
+{
+    std::vector<float> values;
+    const size_t count = 3 * radiance.size(), step = std::max<size_t>(1, count / mostValues);
+    values.reserve(count / step + 1);
+    for (size_t i = 0; i < count; i += step) {
+        values.push_back(radiance[i / 3][static_cast<int>(i % 3)]);
+    }
+    return peakOf(values);
+}
+
+float peakOf(const Image& radiance, std::span<const uint8_t> mask)
+{
+    std::vector<float> values;
+    for (int y = 0; y < radiance.height; ++y) {
+        for (int x = 0; x < radiance.width; ++x) {
+            if (mask[static_cast<size_t>(y) * radiance.width + x]) {
+                const glm::vec3 v = radiance.rgb(x, y);
+                values.insert(values.end(), {v.x, v.y, v.z});
+            }
+        }
+    }
+    return peakOf(values);
+}
+
+float exposureOfPeak(double peak)
+{
+    return static_cast<float>(std::log2(0.9 / peak));
+}
+
 double radiancePsnr(const Image& a, const Image& b, std::span<const uint8_t> mask, double peak)
 {
     return psnrOfClipped(a, b, mask, 1 / peak);

@@ -12,8 +12,30 @@ namespace nacre {
 // The q-quantile (0..1) by linear interpolation between order statistics. values must not be empty; they are reordered.
 float quantile(std::vector<float>& values, double q);
 
-// PSNR [dB] of radiance: over mask pixels (mask[i] != 0), values divided by `peak` (the 99th percentile of all the
-// capture's mask values), clipped to [0,1], peak 1, squared errors pooled over pixels and channels. +inf where equal.
+// The radiance that counts as 1 where pictures are judged or exposed: the 99th percentile of all that the mask shows,
+// every channel a value of its own; 1 where that is not above 0. values are reordered.
+float peakOf(std::vector<float>& values);
+// Of at most so many of them, evenly.
+float peakOf(std::span<const glm::vec3> radiance, size_t mostValues = ~size_t{0});
+float peakOf(const Image& radiance, std::span<const uint8_t> mask);
+
+// Stops that put a peak at 0.9 of display white.
+float exposureOfPeak(double peak);
+
+// Grey of linear Rec. 601 weights, as DiLiGenT's published figures use it: what normals, verdicts and grey PSNR see.
+inline float greyOf(const glm::vec3& rgb)
+{
+    return 0.2989f * rgb.x + 0.5870f * rgb.y + 0.1140f * rgb.z;
+}
+
+// Where a camera's own channels count alike: calibration spheres, an offset of the sensor.
+inline float channelMean(const glm::vec3& rgb)
+{
+    return (rgb.x + rgb.y + rgb.z) / 3;
+}
+
+// PSNR [dB] of radiance: over mask pixels (mask[i] != 0), values divided by the peak of all the capture's mask values,
+// clipped to [0,1], peak 1, squared errors pooled over pixels and channels. +inf where equal.
 double radiancePsnr(const Image& a, const Image& b, std::span<const uint8_t> mask, double peak);
 
 // PSNR [dB] of 8-bit pictures whose values are code values / 255; over the mask, peak 255.

@@ -8,9 +8,9 @@
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
+#include "engine/files/image.h"
 #include "engine/files/measures.h"
 #include "engine/scene/ball.h"
-#include "engine/scene/display.h"
 #include "shared/shading.h"
 
 namespace nacre {

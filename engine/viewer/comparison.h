@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/scene/display.h"
+#include "engine/files/image.h"
 #include "engine/scene/scene.h"
 #include "engine/viewer/controls.h"
 
