@@ -6,11 +6,9 @@
 
 #include "acquisition/capture/capture.h"
 #include "app/commands/commands.h"
-#include "engine/files/code_difference.h"
 #include "engine/files/error.h"
 #include "engine/files/image.h"
 #include "engine/files/measures.h"
-#include "engine/files/structural_similarity.h"
 #include "engine/files/whole_file.h"
 
 namespace nacre {

@@ -12,12 +12,12 @@
 #include "app/report/acquisition_summary.h"
 #include "app/report/contact_sheet.h"
 #include "app/report/ladder_report.h"
-#include "app/report/material_ball.h"
 #include "engine/files/error.h"
 #include "engine/files/parallel_for.h"
 #include "engine/files/stopwatch.h"
 #include "engine/files/whole_file.h"
 #include "engine/materials/material_specification.h"
+#include "engine/scene/ball.h"
 
 namespace nacre {
 

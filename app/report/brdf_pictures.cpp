@@ -8,12 +8,12 @@
 #include <glm/trigonometric.hpp>
 
 #include "app/report/contact_sheet.h"
-#include "app/report/material_ball.h"
 #include "engine/brdf/brdf_comparison.h"
 #include "engine/brdf/brdf_tabulation.h"
 #include "engine/files/measures.h"
 #include "engine/files/parallel_for.h"
 #include "engine/files/whole_file.h"
+#include "engine/scene/ball.h"
 
 namespace nacre {
 namespace {

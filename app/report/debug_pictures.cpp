@@ -6,8 +6,8 @@
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 
-#include "app/report/material_ball.h"
 #include "engine/files/error.h"
+#include "engine/scene/ball.h"
 
 namespace nacre {
 namespace fs = std::filesystem;

@@ -7,7 +7,6 @@
 #include <fmt/format.h>
 
 #include "engine/files/error.h"
-#include "engine/files/temporary_folder.h"
 #include "engine/files/whole_file.h"
 
 namespace nacre {

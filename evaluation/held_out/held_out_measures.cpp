@@ -8,7 +8,7 @@
 #include "acquisition/capture/capture_window.h"
 #include "acquisition/capture/matlab_normals.h"
 #include "acquisition/lights/sphere_outline.h"
-#include "engine/files/structural_similarity.h"
+#include "engine/files/measures.h"
 #include "engine/scene/reference.h"
 
 namespace nacre {

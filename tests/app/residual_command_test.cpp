@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "engine/files/code_difference.h"
+#include "engine/files/measures.h"
 #include "engine/files/whole_file.h"
 #include "engine/surface/surface.h"
 #include "shared/shading.h"
