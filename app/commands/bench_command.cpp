@@ -28,7 +28,7 @@ struct BenchArguments {
     std::vector<int> lights = {1, 4, 16, 256};
     int repeats = 15;
     int mostDirectLights = 16; // a direct frame under more takes seconds
-    float alpha = 0.3f;
+    float alpha = LambertGgx{}.alpha;
     bool shadows = false; // of direct frames
     int residual = 40;    // components
     bool bake = false;    // instead of frames

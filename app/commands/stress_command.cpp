@@ -28,7 +28,7 @@ struct StressArguments {
     std::string material = "ggx:diffuse=0.4,0.3,0.2;specular=0.05;alpha=0.2";
     fs::path fits;
     int size = 40;
-    uint64_t seed = 1;
+    uint64_t seed = SynthOptions{}.seed;
 };
 
 SynthOptions synthOptionsOf(const StressArguments& arguments)

@@ -17,7 +17,7 @@ struct SynthArguments {
     std::vector<std::string> materials;
     std::string shape = "bumpy";
     std::string format = "png";
-    int size = 256;
+    int size = SynthOptions{}.width;
     bool noShadows = false;
     bool force = false;
     bool quiet = false;

@@ -17,7 +17,7 @@ namespace nacre {
 
 namespace {
 
-constexpr const char* kVersion = "PTM_1.2";
+constexpr const char* kPtmVersion = "PTM_1.2";
 constexpr int kLargestSide = 1 << 16;
 
 // The size of a row's bytes in each block, in the file's order; the file begins with the bottom row of each block.
@@ -87,8 +87,8 @@ PtmFormat formatFromName(const std::filesystem::path& file, std::string_view nam
 PtmFile readHeader(const std::filesystem::path& file, Header& header)
 {
     PtmFile ptm;
-    const std::string_view version = header.word(kVersion);
-    if (version != kVersion) {
+    const std::string_view version = header.word(kPtmVersion);
+    if (version != kPtmVersion) {
         throw Error(file, fmt::format("begins with '{}'", version.substr(0, 16)), "a polynomial texture map, PTM_1.2");
     }
     ptm.format = formatFromName(file, header.word("the map's format"));
@@ -112,7 +112,7 @@ PtmFile readHeader(const std::filesystem::path& file, Header& header)
 
 std::string headerText(const PtmFile& ptm)
 {
-    return fmt::format("{}\n{}\n{}\n{}\n{:.9g}\n{}\n", kVersion, ptmFormatName(ptm.format), ptm.width, ptm.height,
+    return fmt::format("{}\n{}\n{}\n{}\n{:.9g}\n{}\n", kPtmVersion, ptmFormatName(ptm.format), ptm.width, ptm.height,
                        fmt::join(ptm.scale, " "), fmt::join(ptm.bias, " "));
 }
 
