@@ -64,7 +64,7 @@ std::vector<BrdfMeasurement> judgesOf(const BrdfInterpolant& interpolant, const 
     return judges;
 }
 
-double peakOf(const std::vector<BrdfMeasurement>& judges)
+double brightnessOf(const std::vector<BrdfMeasurement>& judges)
 {
     std::vector<float> values;
     for (const BrdfMeasurement& judge : judges) {
@@ -89,7 +89,7 @@ ModelJudge::ModelJudge(const BrdfInterpolant& interpolant, const BrdfTable& full
     : judges_(judgesOf(interpolant, full, threads)), full_(&full)
 {
     if (!judges_.empty()) {
-        peak_ = peakOf(judges_);
+        peak_ = brightnessOf(judges_);
     }
 }
 

@@ -72,7 +72,7 @@ Image slicePicture(const BrdfModel& model, float phiD, float peak, int threads)
 }
 
 // Of a few thousand configurations; the highlight's own peak, thetaH = 0, is among them.
-float peakOf(const BrdfModel& model)
+float largestValue(const BrdfModel& model)
 {
     float peak = 0;
     const auto include = [&](const BrdfValue& f) {
@@ -99,7 +99,7 @@ Image ballRadiance(const BrdfModel& model, float lightDegrees, int threads)
 
 Image slicesSheet(const BrdfModel& model, int threads)
 {
-    const float peak = peakOf(model);
+    const float peak = largestValue(model);
     std::vector<SheetCell> row;
     for (int degrees : {0, 45, 90}) {
         row.push_back({slicePicture(model, glm::radians(static_cast<float>(degrees)), peak, threads),

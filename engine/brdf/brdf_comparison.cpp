@@ -10,8 +10,8 @@
 namespace nacre {
 namespace {
 
-constexpr float kLeastCosine = 0.05f;   // 87 degrees
-constexpr double kComparedShare = 0.01; // of the peak: below, a relative error says nothing that is seen
+constexpr float kLeastComparedCosine = 0.05f; // 87 degrees
+constexpr double kComparedShare = 0.01;       // of the peak: below, a relative error says nothing that is seen
 
 // Halton, On the efficiency of certain quasi-random sequences, 1960.
 float radicalInverse(size_t index, size_t base)
@@ -51,7 +51,7 @@ std::vector<LightView> comparisonConfigurations(size_t count)
         HalfDifference c = halfDifferenceFromUnit({radicalInverse(i, 2), radicalInverse(i, 3), 0}, kHalfPi);
         c.phiD = (2 * radicalInverse(i, 5) - 1) * kPi;
         const LightView d = directionsFromHalfDifference(c);
-        if (d.l.z >= kLeastCosine && d.v.z >= kLeastCosine) {
+        if (d.l.z >= kLeastComparedCosine && d.v.z >= kLeastComparedCosine) {
             configurations.push_back(d);
         }
     }
