@@ -33,7 +33,7 @@ rows="$work/rows"
 : >"$rows"
 for material in $metals $others; do
     capture="$work/$family-$material"
-    [ -d "$capture" ] || "$nacre" synth "$capture" --material "$family:$material" --fits "$fits" --size 128 --sphere-size 64 --give-lights --quiet
+    [ -d "$capture" ] || "$nacre" synth "$capture" --material "$family:$material" --fits "$fits" --side 128 --sphere-size 64 --give-lights --quiet
     row="$material"
     for method in least-squares ransac consensus exemplar; do
         row="$row $(meanError "$capture" --normals $method)"

@@ -7,7 +7,7 @@ diligent=$2
 work=$3
 charts=$(dirname "$0")/../docs/charts
 mkdir "$work"
-"$nacre" stress synthetic --size 24 --quiet -o "$work/synthetic"
+"$nacre" stress synthetic --side 24 --quiet -o "$work/synthetic"
 for object in ball bear; do
   "$nacre" stress "$diligent/${object}PNG" --quiet -o "$work/$object" \
     --methods least-squares,threshold,two-step,ransac,consensus

@@ -37,7 +37,7 @@ stop_display() {
 # A capture, the surface measured from it, and a second shape, made once.
 make_scene() {
     [ -d "$work/bumpy.nacre" ] && return
-    "$nacre" synth "$work/capture" --quiet --force --lights 12 --size 320 --give-lights \
+    "$nacre" synth "$work/capture" --quiet --force --lights 12 --side 320 --give-lights \
         --material 'ggx:diffuse=0.5,0.2,0.1;specular=0.05;alpha=0.15'
     "$nacre" acquire "$work/capture" -o "$work/bumpy.nacre" --quiet --force --normals consensus
 }

@@ -71,7 +71,7 @@ Split splitSamples(const BrdfSamples& cells)
     for (size_t j = 0; j < judges; ++j) {
         addSample(heldOut, (2 * j + 1) * heldOut.size() / (2 * judges), split.judges);
     }
-    split.peak = std::max(quantile(values, 0.99), std::numeric_limits<float>::min());
+    split.peak = peakOf(values);
     return split;
 }
 

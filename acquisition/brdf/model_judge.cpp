@@ -64,7 +64,7 @@ std::vector<BrdfMeasurement> judgesOf(const BrdfInterpolant& interpolant, const 
     return judges;
 }
 
-double peakOf(const std::vector<BrdfMeasurement>& judges)
+double brightnessOf(const std::vector<BrdfMeasurement>& judges)
 {
     std::vector<float> values;
     for (const BrdfMeasurement& judge : judges) {
@@ -72,7 +72,7 @@ double peakOf(const std::vector<BrdfMeasurement>& judges)
             values.push_back(judge.f[c] * judge.weight);
         }
     }
-    return std::max(quantile(values, 0.99), std::numeric_limits<float>::min());
+    return peakOf(values);
 }
 
 // Of this thread's own work: others on the machine do not count.
@@ -89,7 +89,7 @@ ModelJudge::ModelJudge(const BrdfInterpolant& interpolant, const BrdfTable& full
     : judges_(judgesOf(interpolant, full, threads)), full_(&full)
 {
     if (!judges_.empty()) {
-        peak_ = peakOf(judges_);
+        peak_ = brightnessOf(judges_);
     }
 }
 

@@ -23,11 +23,6 @@ constexpr float kLargestSpread = 0.25f;
 // Of the brightest values: less is within what noise and rounding leave in a shadow.
 constexpr float kLeastShare = 0.01f;
 
-float grey(const glm::vec3& v)
-{
-    return (v.x + v.y + v.z) / 3;
-}
-
 // Every exposure a photograph of its own, without times and offset: values as the files have them.
 Capture withPlainExposures(const Capture& capture)
 {
@@ -55,8 +50,8 @@ OffsetEstimate estimateOffset(const Capture& capture, int threads)
             float low = std::numeric_limits<float>::infinity();
             float high = -low;
             for (const glm::vec3& value : block.radianceOf(p)) {
-                low = std::min(low, grey(value));
-                high = std::max(high, grey(value));
+                low = std::min(low, channelMean(value));
+                high = std::max(high, channelMean(value));
             }
             least.push_back(low);
             greatest.push_back(high);

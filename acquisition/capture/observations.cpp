@@ -13,7 +13,7 @@
 #include "acquisition/capture/photograph_files.h"
 #include "engine/files/error.h"
 #include "engine/files/parallel_for.h"
-#include "engine/files/temporary_folder.h"
+#include "engine/files/whole_file.h"
 
 namespace nacre {
 

@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "acquisition/checks/height_consistency.h"
-#include "acquisition/checks/lambertian_residual.h"
+#include "acquisition/checks/lambertian_misfit.h"
 #include "acquisition/normals/pixel_sample.h"
 #include "acquisition/normals/smooth_fill.h"
 
@@ -116,7 +116,7 @@ PreparedCapture prepareCapture(const Capture& capture, const AcquireOptions& opt
     keepReconciled(prepared);
     const CaptureSample& agreeing = prepared.reconciled.sample;
     prepared.checked = checkCapture(agreeing.seen, agreeing.width, agreeing.lights, options.normals);
-    prepared.lambertianResidual = lambertianResidual(agreeing.seen, agreeing.lights);
+    prepared.lambertianMisfit = lambertianMisfit(agreeing.seen, agreeing.lights);
     return prepared;
 }
 
@@ -126,7 +126,7 @@ NormalEstimate startEstimate(const PreparedCapture& prepared, const ChosenMethod
     estimate.given = prepared.given;
     estimate.rig = prepared.rig;
     estimate.leftOut = prepared.reconciled.leftOut;
-    estimate.report = {chosen.method, prepared.reconciled.findings, prepared.lambertianResidual};
+    estimate.report = {chosen.method, prepared.reconciled.findings, prepared.lambertianMisfit};
     append(estimate.report.findings, warningsOf(prepared.rig.lights));
     append(estimate.report.findings, prepared.checked.findings);
     append(estimate.report.findings, chosen.findings);

@@ -34,7 +34,7 @@ struct PreparedCapture {
     Rig rig;                   // of these, irradiances as corrected
     ReconciledPhotographs reconciled;
     CheckedSample checked;
-    double lambertianResidual = 0; // see lambertian_residual.h
+    double lambertianMisfit = 0; // see lambertian_misfit.h
 };
 
 PreparedCapture prepareCapture(const Capture& capture, const AcquireOptions& options, StageClock& clock,

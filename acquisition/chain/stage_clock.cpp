@@ -9,7 +9,7 @@ void StageClock::enter(const std::string& stage)
 {
     endStage();
     stage_ = stage;
-    start_ = std::chrono::steady_clock::now();
+    watch_.lap();
 }
 
 std::vector<StageTime> StageClock::finish()
@@ -24,7 +24,7 @@ void StageClock::endStage()
     if (stage_.empty()) {
         return;
     }
-    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+    const double seconds = watch_.seconds();
     const auto found =
         std::find_if(times_.begin(), times_.end(), [&](const StageTime& t) { return t.stage == stage_; });
     (found == times_.end() ? times_.emplace_back(StageTime{stage_, 0}) : *found).seconds += seconds;

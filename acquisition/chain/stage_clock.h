@@ -1,7 +1,8 @@
 #pragma once
-#include <chrono>
 #include <string>
 #include <vector>
+
+#include "engine/files/stopwatch.h"
 
 namespace nacre {
 
@@ -22,7 +23,7 @@ private:
 
     std::vector<StageTime> times_;
     std::string stage_; // empty: none
-    std::chrono::steady_clock::time_point start_;
+    Stopwatch watch_;
 };
 
 } // namespace nacre

@@ -28,8 +28,7 @@ bool inside(const Circle& c, int x, int y)
 
 float brightness(const Image& image, int x, int y)
 {
-    const glm::vec3 v = image.rgb(x, y);
-    return (v.x + v.y + v.z) / 3;
+    return channelMean(image.rgb(x, y));
 }
 
 struct Region {

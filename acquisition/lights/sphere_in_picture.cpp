@@ -48,7 +48,7 @@ std::vector<float> cropOf(const SphereInPicture& sphere, const fs::path& file, T
     for (int y = 0; y < sphere.height; ++y) {
         for (int x = 0; x < sphere.width; ++x) {
             const float* p = &values[(y * width + sphere.x + x) * channels];
-            crop.push_back(channels == 3 ? (p[0] + p[1] + p[2]) / 3 : p[0]);
+            crop.push_back(channels == 3 ? channelMean({p[0], p[1], p[2]}) : p[0]);
         }
     }
     return crop;

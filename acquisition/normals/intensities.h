@@ -6,15 +6,10 @@
 #include <glm/vec3.hpp>
 
 #include "acquisition/capture/observations.h"
+#include "engine/files/measures.h"
 #include "engine/lights/light.h"
 
 namespace nacre {
-
-// Grey of linear Rec. 601 weights, as DiLiGenT's published figures use it.
-inline float greyOf(const glm::vec3& rgb)
-{
-    return 0.2989f * rgb.x + 0.5870f * rgb.y + 0.1140f * rgb.z;
-}
 
 // Grey radiance over irradiance per pixel and light: what a light of irradiance 1 would show. Rows are padded with
 // zeros to a multiple of eight.

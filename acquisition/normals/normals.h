@@ -62,8 +62,8 @@ NormalEstimator makeConsensusEstimator(const std::vector<Light>& lights, const N
 struct NormalReport {
     NormalMethod method = NormalMethod::automatic; // the one that was taken
     std::vector<Finding> findings;
-    // Share of the mean, see lambertian_residual.h; NaN where nothing is lit.
-    double lambertianResidual = std::numeric_limits<double>::quiet_NaN();
+    // Share of the mean, see lambertian_misfit.h; NaN where nothing is lit.
+    double lambertianMisfit = std::numeric_limits<double>::quiet_NaN();
 };
 
 } // namespace nacre

@@ -5,6 +5,18 @@
 #include "engine/surface/residual_layer.h"
 
 namespace nacre {
+
+Eigen::RowVectorXd splineTerms(std::span<const glm::vec2> nodes, const glm::vec2& point)
+{
+    const auto n = static_cast<Eigen::Index>(nodes.size());
+    Eigen::RowVectorXd terms(n + 3);
+    for (Eigen::Index i = 0; i < n; ++i) {
+        terms(i) = thinPlateKernel(point, nodes[i]);
+    }
+    terms.tail<3>() << 1, point.x, point.y;
+    return terms;
+}
+
 namespace {
 
 Eigen::MatrixXd splineSystem(std::span<const glm::vec2> nodes, double penalty)
@@ -19,17 +31,6 @@ Eigen::MatrixXd splineSystem(std::span<const glm::vec2> nodes, double penalty)
         system.block<3, 1>(n, i) = system.block<1, 3>(i, n).transpose();
     }
     return system;
-}
-
-Eigen::RowVectorXd splineTerms(std::span<const glm::vec2> nodes, const glm::vec2& point)
-{
-    const auto n = static_cast<Eigen::Index>(nodes.size());
-    Eigen::RowVectorXd terms(n + 3);
-    for (Eigen::Index i = 0; i < n; ++i) {
-        terms(i) = thinPlateKernel(point, nodes[i]);
-    }
-    terms.tail<3>() << 1, point.x, point.y;
-    return terms;
 }
 
 // Weights of the others for the light that is left out.

@@ -60,7 +60,7 @@ ResidualRows sampleRows(const Surface& surface, ObservationBlocks& blocks, size_
     return all;
 }
 
-float peakOf(const ResidualRows& rows, const std::vector<Light>& lights)
+float brightnessOf(const ResidualRows& rows, const std::vector<Light>& lights)
 {
     std::vector<float> values;
     for (Eigen::Index row = 0; row < rows.observed.rows(); ++row) {
@@ -68,7 +68,7 @@ float peakOf(const ResidualRows& rows, const std::vector<Light>& lights)
             values.push_back(rows.observed(row, static_cast<Eigen::Index>(i)) * lights[i].irradiance[row % 3]);
         }
     }
-    return std::max(quantile(values, 0.99), 1e-12f);
+    return peakOf(values);
 }
 
 // Far fewer texels than there are pixels, in bounded memory.
@@ -131,7 +131,7 @@ EstimatedResidual estimateResidual(const Surface& surface, const ResidualOptions
         return result;
     }
     const ResidualRows rows = sampleRows(surface, blocks, pixels, samplePixels(lights.size()));
-    const ResidualJudge judge(rows, lights, peakOf(rows, lights));
+    const ResidualJudge judge(rows, lights, brightnessOf(rows, lights));
     report.fit = chooseResidualFit(rows, lights, judge, options.choice);
     const size_t each = bytesPerComponent(pixels, lights.size());
     const size_t most = options.toleranceDecibels > 0 ? kMostResidualComponents : kMostUnasked;

@@ -28,11 +28,11 @@ struct CalibrationArguments {
 
 // What `acquire` and `normals` share: a capture, and how normals are estimated.
 struct CaptureArguments : CalibrationArguments {
-    std::string normals = "auto";
+    std::string normals = nameOf(NormalOptions{}.method);
     std::string intensities = "auto";
     std::optional<int> lightsGiven; // empty: all
-    size_t triples = 300;
-    uint64_t seed = 1;
+    size_t triples = NormalOptions{}.triples;
+    uint64_t seed = NormalOptions{}.seed;
     std::filesystem::path fits;
     std::vector<std::string> excludedReflectances;
     std::vector<float> thresholds;

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include <CLI/CLI.hpp>
+#include <fmt/format.h>
 
 #include "evaluation/charts/chart_measurement.h"
 
@@ -16,7 +17,7 @@ struct ChartArguments {
     std::filesystem::path output, fits;
     std::vector<std::string> parts{"normals", "brdf", "rendering"};
     std::vector<std::string> methods, lights, neighbours, frameLights;
-    std::string frameSize = "1280x720";
+    std::string frameSize = fmt::format("{}x{}", RenderingChoices{}.width, RenderingChoices{}.height);
     std::string device;
     int threads = 0;
     bool quiet = false, force = false;

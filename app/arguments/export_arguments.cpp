@@ -34,7 +34,7 @@ void requireExtension(const char* option, const fs::path& file, const std::vecto
 void requireChoices(const ExportArguments& arguments)
 {
     requireExtension("--ptm", arguments.ptm, {".ptm"});
-    requireExtension("--normals", arguments.normals, {".png", ".exr"});
+    requireExtension("--write-normals", arguments.normals, {".png", ".exr"});
     requireExtension("--albedo", arguments.albedo, {".png", ".exr"});
     if (arguments.ptmFormat != "lrgb" && arguments.ptmFormat != "rgb") {
         throw usageError(fmt::format("--ptm-format {} is not known", arguments.ptmFormat), "lrgb or rgb");
@@ -62,7 +62,7 @@ void requireOutputs(const ExportArguments& arguments)
     std::vector<fs::path> outputs = {arguments.ptm, arguments.web, arguments.normals, arguments.albedo};
     std::erase_if(outputs, [](const fs::path& output) { return output.empty(); });
     if (outputs.empty()) {
-        throw usageError("nothing is asked for", "--ptm, --rti-web, --normals or --albedo");
+        throw usageError("nothing is asked for", "--ptm, --rti-web, --write-normals or --albedo");
     }
     for (size_t i = 0; i < outputs.size(); ++i) {
         if (std::find(outputs.begin(), outputs.begin() + static_cast<std::ptrdiff_t>(i), outputs[i]) !=
@@ -92,7 +92,7 @@ void ExportArguments::addTo(CLI::App& command)
     command.add_option("--rti-web", web, "Folder of info.json and plane_N.jpg, as OpenLIME and relight show it")
         ->option_text("DIR");
     command.add_option("--basis", basis, "Of --rti-web: hsh (nine terms) or ptm (six)")->capture_default_str();
-    command.add_option("--normals", normals, "FILE.png (16 bits, (n + 1) / 2) or FILE.exr")->option_text("FILE");
+    command.add_option("--write-normals", normals, "FILE.png (16 bits, (n + 1) / 2) or FILE.exr")->option_text("FILE");
     command.add_option("--albedo", albedo, "Colour without shading and gloss: FILE.png (16 bits) or FILE.exr")
         ->option_text("FILE");
     command.add_option("--lights", lights, "Virtual lights that --ptm and --rti-web are fitted to")

@@ -9,8 +9,8 @@ namespace nacre {
 
 // How a table is filled from samples: --interpolation, --k.
 struct InterpolationArguments {
-    std::string method = "local-linear";
-    std::string k = "25";
+    std::string method = nameOf(InterpolationOptions{}.method);
+    std::string k = std::to_string(InterpolationOptions{}.k);
 
     void addTo(CLI::App& command);
     InterpolationOptions options(int threads) const; // throws usage Errors

@@ -15,6 +15,7 @@
 #include "app/report/progress_line.h"
 #include "app/report/verdict_pictures.h"
 #include "engine/files/error.h"
+#include "engine/files/stopwatch.h"
 #include "engine/files/whole_file.h"
 
 namespace nacre {

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <chrono>
 #include <cstring>
 #include <functional>
 #include <memory>
@@ -11,6 +10,7 @@
 #include "app/commands/commands.h"
 #include "engine/brdf/brdf_tabulation.h"
 #include "engine/files/error.h"
+#include "engine/files/stopwatch.h"
 #include "engine/files/whole_file.h"
 #include "engine/gpu/floor_pass.h"
 #include "engine/gpu/renderer.h"
@@ -28,7 +28,7 @@ struct BenchArguments {
     std::vector<int> lights = {1, 4, 16, 256};
     int repeats = 15;
     int mostDirectLights = 16; // a direct frame under more takes seconds
-    float alpha = 0.3f;
+    float alpha = LambertGgx{}.alpha;
     bool shadows = false; // of direct frames
     int residual = 40;    // components
     bool bake = false;    // instead of frames
@@ -38,9 +38,7 @@ struct BenchArguments {
 
 double milliseconds(const std::function<void()>& call)
 {
-    const auto start = std::chrono::steady_clock::now();
-    call();
-    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+    return 1000 * secondsOf(call);
 }
 
 double median(std::vector<double> values)
@@ -249,7 +247,7 @@ void runBench(const BenchArguments& arguments)
         }
     }
     if (arguments.residual < 0 || arguments.residual > kMostResidualComponents) {
-        throw Error("", fmt::format("--residual {} is out of range", arguments.residual),
+        throw Error("", fmt::format("--residual-components {} is out of range", arguments.residual),
                     fmt::format("0 to {}", kMostResidualComponents), Error::kUsage);
     }
     const nlohmann::ordered_json results = arguments.bake ? runBakeBench() : Bench(arguments).run();
@@ -275,7 +273,7 @@ void addBenchCommand(CLI::App& app)
         ->capture_default_str();
     command->add_flag("--shadows", arguments->shadows, "Direct frames with cast shadows as well");
     command
-        ->add_option("--residual", arguments->residual,
+        ->add_option("--residual-components", arguments->residual,
                      "Frames with a residual layer of so many components as well (0: none), against those without")
         ->capture_default_str();
     command->add_flag("--bake", arguments->bake,

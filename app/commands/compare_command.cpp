@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <memory>
 
@@ -6,11 +7,9 @@
 
 #include "acquisition/capture/capture.h"
 #include "app/commands/commands.h"
-#include "engine/files/code_difference.h"
 #include "engine/files/error.h"
 #include "engine/files/image.h"
 #include "engine/files/measures.h"
-#include "engine/files/structural_similarity.h"
 #include "engine/files/whole_file.h"
 
 namespace nacre {
@@ -43,21 +42,6 @@ Image loadForComparison(const std::filesystem::path& file)
     return loadPhotograph(file, header.curveIsDeclared ? header.declaredCurve : TransferCurve::linear);
 }
 
-// The brightest 1 % of the reference's mask values are clipped, as everywhere (docs/results.md).
-double peakOf(const Image& reference, std::span<const uint8_t> mask)
-{
-    std::vector<float> values;
-    for (int y = 0; y < reference.height; ++y) {
-        for (int x = 0; x < reference.width; ++x) {
-            if (mask[static_cast<size_t>(y) * reference.width + x]) {
-                const glm::vec3 v = reference.rgb(x, y);
-                values.insert(values.end(), {v.x, v.y, v.z});
-            }
-        }
-    }
-    return values.empty() ? 0 : quantile(values, 0.99);
-}
-
 bool holdsCodes(const std::filesystem::path& file)
 {
     return readImageHeader(file).pixelType.starts_with("uint");
@@ -66,7 +50,8 @@ bool holdsCodes(const std::filesystem::path& file)
 // What the eye compares. Two files of integers are taken as they are; else radiance up to `peak` is shown as sRGB.
 Image codesOf(const Image& radiance, const std::filesystem::path& file, bool asStored, double peak)
 {
-    return asStored ? loadImage(file) : displayImage(radiance, static_cast<float>(-std::log2(peak)));
+    return asStored ? loadImage(file)
+                    : displayedImage(radiance, {.exposureStops = static_cast<float>(-std::log2(peak))});
 }
 
 Comparison compare(const CompareArguments& arguments)
@@ -83,7 +68,7 @@ Comparison compare(const CompareArguments& arguments)
                                           : loadMask(arguments.mask, reference.width, reference.height);
     Comparison found;
     found.peak = arguments.peak > 0 ? arguments.peak : peakOf(reference, mask);
-    if (!(found.peak > 0)) {
+    if (std::none_of(reference.values.begin(), reference.values.end(), [](float v) { return v > 0; })) {
         throw Error(arguments.reference, "is black", "a picture with light in it");
     }
     found.psnr = radiancePsnr(picture, reference, mask, found.peak);

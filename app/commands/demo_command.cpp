@@ -1,4 +1,3 @@
-#include <chrono>
 #include <memory>
 
 #include <fmt/format.h>
@@ -14,6 +13,7 @@
 #include "assets/synth/synth_capture.h"
 #include "engine/files/error.h"
 #include "engine/files/measures.h"
+#include "engine/files/stopwatch.h"
 #include "engine/files/whole_file.h"
 #include "engine/gpu/renderer.h"
 
@@ -52,7 +52,7 @@ std::vector<Lighting> lightings()
 
 Image display(const Frame& frame)
 {
-    return displayImage(frame, automaticExposure(frame));
+    return displayedImage(frame, {.exposureStops = automaticExposure(frame)});
 }
 
 // The absolute difference, in units of the photograph's exposure, four times as bright.
@@ -83,10 +83,9 @@ std::vector<SheetCell> comparisonRow(const Capture& capture, const Surface& surf
     renderer.setSurface(surface);
     const Frame frame = renderer.render(std::vector<Light>{surface.lights[kShownPhotograph].light});
     const float exposure = automaticExposure(photograph);
-    const Image shown = displayImage(photograph, exposure), rendered = displayImage(frame, exposure);
-    std::vector<float> values = photograph.values;
-    std::erase(values, 0.0f);
-    const double psnr = radiancePsnr(frame, photograph, capture.mask, quantile(values, 0.99));
+    const Image shown = displayedImage(photograph, {.exposureStops = exposure}),
+                rendered = displayedImage(frame, {.exposureStops = exposure});
+    const double psnr = radiancePsnr(frame, photograph, capture.mask, peakOf(photograph, capture.mask));
     Image normals(surface.normals.width, surface.normals.height, 3);
     for (size_t i = 0; i < surface.normals.normals.size(); ++i) {
         if (surface.normals.confidence[i] > 0) {
@@ -140,7 +139,7 @@ Image makeSheet(const Capture& capture, const Surface& surface, const DemoArgume
 
 void runDemo(const DemoArguments& arguments)
 {
-    const auto start = std::chrono::steady_clock::now();
+    const Stopwatch watch;
     if (arguments.threads < 0) {
         throw Error("", fmt::format("--threads {} is not possible", arguments.threads), "1 or more, or 0 for all",
                     Error::kUsage);
@@ -162,8 +161,7 @@ void runDemo(const DemoArguments& arguments)
     if (!arguments.quiet) {
         fmt::print("{}{}{}", describeNormals(capture, result.estimate), describeBrdf(result),
                    describe(result.estimate.times));
-        fmt::print("in all       {:.1f} seconds\n",
-                   std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+        fmt::print("in all       {:.1f} seconds\n", watch.seconds());
     }
     fmt::print("{}\n", (std::filesystem::absolute(arguments.folder) / "demo.png").string());
 }

@@ -27,7 +27,7 @@ Surface surfaceToExport(const ExportArguments& arguments)
     const bool needsMaterial = !arguments.ptm.empty() || !arguments.web.empty() || !arguments.albedo.empty();
     if (needsMaterial && surface.materials.empty()) {
         throw Error(arguments.surface, "is a target without a material",
-                    "a surface of nacre acquire; of a target, --normals alone can be exported");
+                    "a surface of nacre acquire; of a target, --write-normals alone can be exported");
     }
     if (arguments.shadows) { // before pixels are repeated, which would make stairs of the height
         castShadows(surface, arguments.surface);
@@ -168,7 +168,8 @@ void addExportCommand(CLI::App& app)
     auto arguments = std::make_shared<ExportArguments>();
     CLI::App* command = app.add_subcommand("export", "A surface for the viewers and programs of others");
     arguments->addTo(*command);
-    command->footer("Example:\n  nacre export horse.nacre --ptm horse.ptm --rti-web horse-web --normals horse.png");
+    command->footer(
+        "Example:\n  nacre export horse.nacre --ptm horse.ptm --rti-web horse-web --write-normals horse.png");
     command->callback([arguments] { runExport(*arguments); });
 }
 

@@ -8,11 +8,12 @@
 #include "app/commands/commands.h"
 #include "app/materials/material_library.h"
 #include "app/report/contact_sheet.h"
-#include "app/report/material_ball.h"
 #include "engine/files/error.h"
 #include "engine/files/parallel_for.h"
+#include "engine/files/stopwatch.h"
 #include "engine/files/whole_file.h"
 #include "engine/materials/material_specification.h"
+#include "engine/scene/ball.h"
 
 namespace nacre {
 
@@ -62,7 +63,7 @@ Image sheetOf(const std::vector<LibraryEntry>& usable, int threads)
     parallelFor(usable.size(), 1, threads, [&](size_t first, size_t last) {
         for (size_t i = first; i < last; ++i) {
             const Image radiance = materialThumbnail(usable[i].model, kBallSize);
-            balls[i] = displayImage(radiance, automaticExposure(radiance));
+            balls[i] = displayedImage(radiance, {.exposureStops = automaticExposure(radiance)});
         }
     });
     const size_t columns = std::min(kMostColumns, usable.size());

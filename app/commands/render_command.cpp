@@ -121,7 +121,7 @@ void addRenderCommand(CLI::App& app)
     command->add_option("--show", arguments->show,
                         "picture, normals, labels, coverage (stripes where something unmeasured is asked for), theta-h "
                         "or theta-d (of the brightest light) [picture]");
-    command->add_option("--residual", arguments->residual,
+    command->add_option("--layer", arguments->residual,
                         "What the captured surface shows beyond its BRDF, where acquire kept it: on, off, or alone "
                         "about middle grey [on]");
     command->add_flag_function(

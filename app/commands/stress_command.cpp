@@ -28,14 +28,14 @@ struct StressArguments {
     std::string material = "ggx:diffuse=0.4,0.3,0.2;specular=0.05;alpha=0.2";
     fs::path fits;
     int size = 40;
-    uint64_t seed = 1;
+    uint64_t seed = SynthOptions{}.seed;
 };
 
 SynthOptions synthOptionsOf(const StressArguments& arguments)
 {
     constexpr int kLargest = 1024;
     if (arguments.size < 16 || arguments.size > kLargest) {
-        throw Error("", fmt::format("--size {} is out of range", arguments.size), fmt::format("16 to {}", kLargest),
+        throw Error("", fmt::format("--side {} is out of range", arguments.size), fmt::format("16 to {}", kLargest),
                     Error::kUsage);
     }
     SynthOptions options;
@@ -133,7 +133,7 @@ void addStressCommand(CLI::App& app)
         ->capture_default_str();
     command->add_option("--fits", arguments->fits,
                         "Folder of published fits, for --material [environment variable NACRE_FITS_DIR]");
-    command->add_option("--size", arguments->size, "Side of the synthetic photographs, pixels")->capture_default_str();
+    command->add_option("--side", arguments->size, "Side of the synthetic photographs, pixels")->capture_default_str();
     command->add_option("--seed", arguments->seed, "Of everything that is drawn")->capture_default_str();
     command->footer("Example:\n  nacre stress synthetic -o stress --sweep lights,layout --methods consensus,auto");
     command->callback([arguments] { runStress(*arguments); });

@@ -17,7 +17,7 @@ struct SynthArguments {
     std::vector<std::string> materials;
     std::string shape = "bumpy";
     std::string format = "png";
-    int size = 256;
+    int size = SynthOptions{}.width;
     bool noShadows = false;
     bool force = false;
     bool quiet = false;
@@ -95,7 +95,7 @@ void addSynthCommand(CLI::App& app)
     command->footer(kExample);
     command->add_option("OUT", arguments->output, "Folder to write")->required();
     command->add_option("--shape", arguments->shape, "bumpy (casts shadows) or sphere")->capture_default_str();
-    command->add_option("--size", arguments->size, "Side of a photograph, pixels")->capture_default_str();
+    command->add_option("--side", arguments->size, "Side of a photograph, pixels")->capture_default_str();
     command->add_option("--lights", o.lights, "Number of lights, one photograph each")->capture_default_str();
     command
         ->add_option("--material", arguments->materials,

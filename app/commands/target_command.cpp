@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <chrono>
 #include <memory>
 
 #include <fmt/format.h>
@@ -8,6 +7,7 @@
 #include "app/commands/commands.h"
 #include "app/materials/target_source.h"
 #include "engine/files/error.h"
+#include "engine/files/stopwatch.h"
 
 namespace nacre {
 
@@ -47,9 +47,9 @@ void runTarget(const TargetCommandArguments& arguments)
     for (const std::string& warning : report.warnings) {
         fmt::print(stderr, "nacre: warning: {}\n", warning);
     }
-    const auto start = std::chrono::steady_clock::now();
+    const Stopwatch watch;
     saveSurface(arguments.output, report.surface, arguments.force);
-    report.stages.push_back({"write", std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count()});
+    report.stages.push_back({"write", watch.seconds()});
     if (!arguments.quiet) {
         print(report);
         fmt::print("wrote        {}\n", arguments.output.string());

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <chrono>
 #include <memory>
 
 #include <fmt/format.h>
@@ -7,6 +6,7 @@
 #include "app/commands/commands.h"
 #include "app/materials/transfer_pictures.h"
 #include "engine/files/error.h"
+#include "engine/files/stopwatch.h"
 #include "engine/files/whole_file.h"
 #include "engine/gpu/texture.h"
 #include "engine/loading/size_argument.h"
@@ -65,10 +65,8 @@ void checkArguments(const TransferArguments& arguments)
 
 void runTransfer(const TransferArguments& arguments)
 {
-    const auto start = std::chrono::steady_clock::now();
-    const auto seconds = [&] {
-        return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    };
+    const Stopwatch watch;
+    const auto seconds = [&] { return watch.seconds(); };
     checkArguments(arguments);
     const RenderOutput output = outputOf(arguments);
     WholeOutput folder(arguments.output, arguments.force);

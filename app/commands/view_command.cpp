@@ -114,7 +114,7 @@ void addViewCommand(CLI::App& app)
     command->add_option("--show", scene.show,
                         "To begin with: picture, normals, labels, coverage, theta-h, theta-d or, with --capture, "
                         "verdicts [picture]");
-    command->add_option("--residual", scene.residual,
+    command->add_option("--layer", scene.residual,
                         "To begin with, what the surface shows beyond its BRDF: on, off or alone [on]");
     command->add_option("--state", scene.state, "A screenshot's state file, or any that render takes");
     command->add_option("--capture", arguments->capture,

@@ -73,16 +73,6 @@ std::vector<size_t> photographsOfLights(const Surface& surface, const Capture& c
     return found;
 }
 
-double peakOf(const Observations& all)
-{
-    std::vector<float> values;
-    const size_t step = std::max<size_t>(1, 3 * all.radiance.size() / kPeakValues);
-    for (size_t i = 0; i < 3 * all.radiance.size(); i += step) {
-        values.push_back(all.radiance[i / 3][static_cast<int>(i % 3)]);
-    }
-    return values.empty() ? 1.0 : std::max(quantile(values, 0.99), 1e-9f);
-}
-
 std::shared_ptr<HeldCapture> heldOf(const std::filesystem::path& capture, const std::filesystem::path& surface)
 {
     auto held = std::make_shared<HeldCapture>();
@@ -107,11 +97,6 @@ Image pictureUnder(const HeldCapture& held, size_t light)
         }
     }
     return picture;
-}
-
-float meanOf(const glm::vec3& rgb)
-{
-    return (rgb.r + rgb.g + rgb.b) / 3;
 }
 
 // kVerdictKinds has a verdict's kinds in their order.
@@ -144,8 +129,8 @@ std::vector<PixelObservation> judged(const HeldCapture& held, size_t p)
         const Light& light = surface.lights[i].light;
         const float nDotL = glm::dot(n, light.direction);
         const glm::vec3 f = evaluateTable(surface.materials[label].table, n, light.direction, {0, 0, 1}).value;
-        observed.push_back(meanOf(held.all.radianceOf(p)[held.photographOf[i]] / light.irradiance));
-        predicted.push_back(nDotL > 0 ? meanOf(a * f) * nDotL : 0.0f);
+        observed.push_back(greyOf(held.all.radianceOf(p)[held.photographOf[i]] / light.irradiance));
+        predicted.push_back(nDotL > 0 ? greyOf(a * f) * nDotL : 0.0f);
         observations.push_back({i, nDotL, observed.back(), predicted.back(), 0});
     }
     std::vector<Verdict> verdicts(observations.size());
@@ -200,7 +185,7 @@ void load(HeldCapture& held, const std::function<void(float)>& progress, const s
         const auto share = static_cast<float>(held.all.pixels.size()) / static_cast<float>(held.capture.maskPixels);
         progress(kReadingShare * share);
     }
-    held.peak = peakOf(held.all);
+    held.peak = peakOf(held.all.radiance, kPeakValues);
     judgeAll(held, progress, isCancelled);
 }
 

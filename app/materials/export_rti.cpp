@@ -26,7 +26,7 @@ Image displayedOnThreads(const Frame& radiance, float stops, int threads)
         Image rows(radiance.width, static_cast<int>(last - first), 3);
         const auto offset = static_cast<std::ptrdiff_t>(radiance.index(0, static_cast<int>(first)));
         std::copy_n(radiance.values.begin() + offset, rows.values.size(), rows.values.begin());
-        rows = displayImage(rows, stops);
+        rows = displayedImage(rows, {.exposureStops = stops});
         std::copy(rows.values.begin(), rows.values.end(), picture.values.begin() + offset);
     });
     return picture;

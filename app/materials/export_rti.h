@@ -11,7 +11,7 @@
 namespace nacre {
 
 struct RtiFitOptions {
-    int lights = 64;                    // white, of irradiance 1, one at a time
+    int lights = 0;                     // white, of irradiance 1, one at a time
     std::optional<float> exposureStops; // without: the 99th percentile over all lights' pictures lies at 0.9
     int threads = 0;                    // 0 = all
 };

@@ -8,7 +8,6 @@
 
 #include "app/report/brdf_report.h"
 #include "engine/files/error.h"
-#include "engine/materials/brdf_source.h"
 #include "engine/materials/material_specification.h"
 #include "engine/scene/coverage.h"
 #include "engine/surface/surface_material.h"

@@ -99,7 +99,7 @@ void checkLook(const RenderArguments& arguments, const RenderOutput& output)
     }
     if (output.isRadiance && output.residual == ResidualUse::alone) {
         throw Error(arguments.output, "is radiance, which is not drawn about middle grey",
-                    "--residual alone with .png or .webp", Error::kUsage);
+                    "--layer alone with .png or .webp", Error::kUsage);
     }
 }
 

@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 
 #include <fmt/format.h>
 
 #include "assets/targets.h"
 #include "engine/files/error.h"
+#include "engine/files/stopwatch.h"
 #include "engine/gpu/context.h"
 #include "engine/gpu/texture.h"
 #include "engine/loading/light_argument.h"
@@ -26,19 +26,6 @@ constexpr const char* kMakePrefix = "make:";
 constexpr const char* kSources =
     "a mesh (.obj, .ply, .gltf, .glb, .stl), a normal or height map (.png, .exr, .jpg, .tif, "
     ".tga), NAME.nacre or make:NAME";
-
-// Seconds since it was made or last asked.
-class Stopwatch {
-public:
-    double lap()
-    {
-        const auto before = std::exchange(start_, std::chrono::steady_clock::now());
-        return std::chrono::duration<double>(start_ - before).count();
-    }
-
-private:
-    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
 
 PictureSize sizeOf(const TargetCommandArguments& arguments)
 {

@@ -1,11 +1,11 @@
 #include "app/materials/transfer_pictures.h"
 
 #include <algorithm>
-#include <chrono>
 
 #include <fmt/format.h>
 
 #include "app/report/contact_sheet.h"
+#include "engine/files/stopwatch.h"
 #include "engine/scene/coverage.h"
 #include "shared/shading.h"
 
@@ -19,13 +19,6 @@ constexpr const char* kBall = "ball";
 // Up to so many lights every pixel looks each of them up; beyond, all are collapsed into a ball, whose texels show
 // where a single light's shadow begins.
 constexpr size_t kMostDirectLights = 16;
-
-using Clock = std::chrono::steady_clock;
-
-double secondsSince(Clock::time_point start)
-{
-    return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 // The mean of boxes of pixels, in linear light; codes in [0,1].
 Image shrunk(const Image& picture, int box)
@@ -102,20 +95,20 @@ private:
     // One surface under all rigs.
     void drawColumn(size_t row, const std::string& target, Surface surface)
     {
-        auto start = Clock::now();
+        Stopwatch watch;
         Scene scene{.surface = std::move(surface), .lights = {}};
         renderer_.setSurface(scene.surface, ballSizes_);
         for (size_t rig = 0; rig < sources_.rigs.size(); ++rig) {
             scene.lights = sources_.rigs[rig].lights;
             TransferPicture picture{sources_.rigs[rig].name, sources_.rows[row].name, target};
             const Image first = save(scene, picture);
-            picture.seconds = secondsSince(start);
+            picture.seconds = watch.seconds();
             picture.unmeasured = unmeasuredShare(scene).pixels;
             const std::string caption =
                 fmt::format("{}: {} {}{}", picture.rig, picture.row, target == kBall ? "" : "on ", target);
             sheets_[rig][row].push_back({shrunk(first, cell_.box), captionOf(caption, cell_.width)});
             pictures_.push_back(std::move(picture));
-            start = Clock::now();
+            watch.lap();
         }
     }
 

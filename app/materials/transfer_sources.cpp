@@ -1,7 +1,6 @@
 #include "app/materials/transfer_sources.h"
 
 #include <algorithm>
-#include <chrono>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -10,6 +9,7 @@
 #include "app/arguments/short_name.h"
 #include "app/materials/target_source.h"
 #include "engine/files/error.h"
+#include "engine/files/stopwatch.h"
 #include "engine/lights/light_rigs.h"
 #include "engine/loading/cast_shadows.h"
 #include "engine/materials/material_specification.h"
@@ -19,13 +19,6 @@ namespace nacre {
 namespace {
 
 constexpr const char* kLabelled = "labels"; // the row of --labels
-
-template <typename Work> double secondsOf(const Work& work)
-{
-    const auto start = std::chrono::steady_clock::now();
-    work();
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
 
 std::vector<LightRig> rigsOf(const TransferArguments& arguments)
 {

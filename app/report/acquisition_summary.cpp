@@ -196,9 +196,9 @@ std::string describeNormals(const Capture& capture, const NormalEstimate& estima
     if (estimate.pixelsSmoothed > 0) {
         text += fmt::format("smoothed in  {} pixels that the capture marks\n", estimate.pixelsSmoothed);
     }
-    if (std::isfinite(estimate.report.lambertianResidual)) {
-        text += fmt::format("residual     {:.2f} % of the mean: Lambert's law on lit pixels, root mean square\n",
-                            100 * estimate.report.lambertianResidual);
+    if (std::isfinite(estimate.report.lambertianMisfit)) {
+        text += fmt::format("misfit       {:.2f} % of the mean: Lambert's law on lit pixels, root mean square\n",
+                            100 * estimate.report.lambertianMisfit);
     }
     VerdictCounts sum;
     for (const VerdictCounts& counts : estimate.verdicts) {
@@ -279,7 +279,7 @@ Json summaryOf(const Capture& capture, const NormalEstimate& estimate)
                  {"findings", jsonOf(estimate)},
                  {"pixelsWithoutNormal", estimate.pixelsWithoutNormal},
                  {"pixelsSmoothed", estimate.pixelsSmoothed},
-                 {"lambertianResidual", estimate.report.lambertianResidual}, // null where nothing is lit
+                 {"lambertianMisfit", estimate.report.lambertianMisfit}, // null where nothing is lit
                  {"photographsLeftOut", estimate.leftOut},
                  {"photographsGiven", estimate.given.size()},
                  {"lights", Json::array()},

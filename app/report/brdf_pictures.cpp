@@ -8,12 +8,12 @@
 #include <glm/trigonometric.hpp>
 
 #include "app/report/contact_sheet.h"
-#include "app/report/material_ball.h"
 #include "engine/brdf/brdf_comparison.h"
 #include "engine/brdf/brdf_tabulation.h"
 #include "engine/files/measures.h"
 #include "engine/files/parallel_for.h"
 #include "engine/files/whole_file.h"
+#include "engine/scene/ball.h"
 
 namespace nacre {
 namespace {
@@ -72,7 +72,7 @@ Image slicePicture(const BrdfModel& model, float phiD, float peak, int threads)
 }
 
 // Of a few thousand configurations; the highlight's own peak, thetaH = 0, is among them.
-float peakOf(const BrdfModel& model)
+float largestValue(const BrdfModel& model)
 {
     float peak = 0;
     const auto include = [&](const BrdfValue& f) {
@@ -99,7 +99,7 @@ Image ballRadiance(const BrdfModel& model, float lightDegrees, int threads)
 
 Image slicesSheet(const BrdfModel& model, int threads)
 {
-    const float peak = peakOf(model);
+    const float peak = largestValue(model);
     std::vector<SheetCell> row;
     for (int degrees : {0, 45, 90}) {
         row.push_back({slicePicture(model, glm::radians(static_cast<float>(degrees)), peak, threads),
@@ -119,8 +119,8 @@ Image ballsSheet(const BrdfModel& model, int threads)
         stops = rows[0].empty() ? std::round(automaticExposure(radiance) * 10) / 10 + 0.0f : stops; // no -0.0
         for (int r = 0; r < 2; ++r) {
             const float shown = stops + kBrighterStops * static_cast<float>(r);
-            rows[r].push_back(
-                {displayImage(radiance, shown), fmt::format("light {} degrees, {:.1f} stops", degrees, shown)});
+            rows[r].push_back({displayedImage(radiance, {.exposureStops = shown}),
+                               fmt::format("light {} degrees, {:.1f} stops", degrees, shown)});
         }
     }
     return contactSheet(rows, kBrdfBallSize, kBrdfBallSize);

@@ -1,7 +1,7 @@
 #pragma once
 #include <filesystem>
 
-#include "engine/materials/brdf_source.h"
+#include "engine/materials/material_specification.h"
 
 namespace nacre {
 

@@ -5,7 +5,7 @@
 
 #include "engine/brdf/brdf_audit.h"
 #include "engine/brdf/brdf_comparison.h"
-#include "engine/materials/brdf_source.h"
+#include "engine/materials/material_specification.h"
 
 namespace nacre {
 

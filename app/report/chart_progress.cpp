@@ -13,7 +13,7 @@ void ChartProgress::show(const std::string& what, size_t done) const
     if (quiet_) {
         return;
     }
-    const double elapsed = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+    const double elapsed = watch_.seconds();
     const size_t left = all_ - std::min(all_, done);
     const std::string time =
         done == 0 ? ""

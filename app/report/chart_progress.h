@@ -1,6 +1,7 @@
 #pragma once
-#include <chrono>
 #include <string>
+
+#include "engine/files/stopwatch.h"
 
 namespace nacre {
 
@@ -14,7 +15,7 @@ public:
     void end() const; // clears the line, if there is one
 
 private:
-    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+    Stopwatch watch_;
     size_t all_;
     bool quiet_;
 };

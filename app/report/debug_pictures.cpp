@@ -6,8 +6,8 @@
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 
-#include "app/report/material_ball.h"
 #include "engine/files/error.h"
+#include "engine/scene/ball.h"
 
 namespace nacre {
 namespace fs = std::filesystem;
@@ -34,7 +34,8 @@ template <class Pick> Image sliceSheet(const BrdfTable& table, Pick&& pick)
 void savePicturesOf(const BrdfTable& table, const fs::path& folder, const std::string& suffix)
 {
     const Image brdf = sliceSheet(table, [&](size_t texel) { return table.values[texel]; });
-    saveImage(folder / ("brdf" + suffix), displayImage(brdf, automaticExposure(brdf)), PixelType::uint8);
+    saveImage(folder / ("brdf" + suffix), displayedImage(brdf, {.exposureStops = automaticExposure(brdf)}),
+              PixelType::uint8);
     const Image coverage = sliceSheet(table, [&](size_t texel) { return glm::vec3(table.confidence[texel]); });
     saveImage(folder / ("brdf_coverage" + suffix), coverage, PixelType::uint8);
     saveImage(folder / ("ball" + suffix), ballPicture(table), PixelType::uint8);
@@ -46,7 +47,7 @@ Image ballPicture(const BrdfTable& table)
 {
     const Light light{glm::normalize(glm::vec3(-0.4f, 0.5f, 0.77f))};
     const Image ball = materialBall(std::make_shared<const BrdfTable>(table), {&light, 1}, kDebugBallSize);
-    return displayImage(ball, automaticExposure(ball));
+    return displayedImage(ball, {.exposureStops = automaticExposure(ball)});
 }
 
 void makeDebugFolder(const fs::path& folder)

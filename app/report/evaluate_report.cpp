@@ -151,8 +151,8 @@ Image worstSheet(const HeldOutEvaluation& evaluation)
     const PhotographMeasures& measures = evaluation.measures[evaluation.worst];
     const float stops = exposureOfPeak(evaluation.peak);
     const Box box = boxOf(evaluation.worstPhotograph);
-    const Image photograph = cut(displayImage(evaluation.worstPhotograph, stops), box);
-    const Image prediction = cut(displayImage(evaluation.worstPrediction, stops), box);
+    const Image photograph = cut(displayedImage(evaluation.worstPhotograph, {.exposureStops = stops}), box);
+    const Image prediction = cut(displayedImage(evaluation.worstPrediction, {.exposureStops = stops}), box);
     Image difference = differenceOf(photograph, prediction);
     const int factor = amplification(difference);
     for (float& value : difference.values) {

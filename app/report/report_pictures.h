@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "acquisition/chain/acquire.h"
-#include "engine/files/temporary_folder.h"
+#include "engine/files/whole_file.h"
 
 namespace nacre {
 

@@ -33,7 +33,7 @@ void require(bool condition, const char* wrong, const char* expected)
 
 void check(const SynthOptions& o)
 {
-    require(std::min(o.width, o.height) >= 8, "--size is too small", "8 pixels or more");
+    require(std::min(o.width, o.height) >= 8, "--side is too small", "8 pixels or more");
     require(o.sphereSize >= 32, "--sphere-size is too small", "32 pixels or more");
     require(o.lights >= 1, "--lights is not positive", "one light or more");
     require(o.capDegrees > 0 && o.capDegrees < 90, "--cap-degrees is out of range", "more than 0 and less than 90");

@@ -10,8 +10,8 @@
 namespace nacre {
 namespace {
 
-constexpr float kLeastCosine = 0.05f; // 87 degrees
-constexpr double kComparedShare = 0.01;  // of the peak: below, a relative error says nothing that is seen
+constexpr float kLeastComparedCosine = 0.05f; // 87 degrees
+constexpr double kComparedShare = 0.01;       // of the peak: below, a relative error says nothing that is seen
 
 // Halton, On the efficiency of certain quasi-random sequences, 1960.
 float radicalInverse(size_t index, size_t base)
@@ -51,7 +51,7 @@ std::vector<LightView> comparisonConfigurations(size_t count)
         HalfDifference c = halfDifferenceFromUnit({radicalInverse(i, 2), radicalInverse(i, 3), 0}, kHalfPi);
         c.phiD = (2 * radicalInverse(i, 5) - 1) * kPi;
         const LightView d = directionsFromHalfDifference(c);
-        if (d.l.z >= kLeastCosine && d.v.z >= kLeastCosine) {
+        if (d.l.z >= kLeastComparedCosine && d.v.z >= kLeastComparedCosine) {
             configurations.push_back(d);
         }
     }
@@ -86,9 +86,7 @@ BrdfComparison compareValues(const std::vector<glm::vec3>& values, const std::ve
         numbers.insert(numbers.end(), {f.x, f.y, f.z});
     }
     comparison.peak = *std::max_element(numbers.begin(), numbers.end());
-    // A reference that is black has no scale of its own.
-    const double percentile99 = quantile(numbers, 0.99);
-    comparison.psnr = psnrOf(values, reference, percentile99 > 0 ? percentile99 : 1);
+    comparison.psnr = psnrOf(values, reference, peakOf(numbers));
     const double least = comparison.peak > 0 ? kComparedShare * comparison.peak : 1;
     std::vector<float> errors;
     for (size_t i = 0; i < values.size(); ++i) {

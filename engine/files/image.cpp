@@ -4,48 +4,41 @@
 #include <cmath>
 
 #include "engine/files/measures.h"
-#include "shared/shading.h"
 
 namespace nacre {
 
-namespace {
-
-constexpr double kExposedQuantile = 0.99;
-constexpr float kExposedLevel = 0.9f; // linear, of display white
-
-float roundedCode(float linear)
+Image displayCodes(const Image& radiance, const Display& display)
 {
-    return std::round(srgbFromLinear(linear) * 255.0f) / 255.0f;
-}
-
-} // namespace
-
-Image displayImage(const Image& radiance, float exposureStops)
-{
-    const float gain = std::exp2(exposureStops);
-    Image display(radiance.width, radiance.height, 3);
+    const float gain = std::exp2(display.exposureStops);
+    Image codes(radiance.width, radiance.height, 3);
     for (int y = 0; y < radiance.height; ++y) {
         for (int x = 0; x < radiance.width; ++x) {
-            const glm::vec3 value = radiance.rgb(x, y) * gain;
-            display.setRgb(x, y, {roundedCode(value.x), roundedCode(value.y), roundedCode(value.z)});
+            codes.setRgb(x, y, displayCode(gain * radiance.rgb(x, y), display.toneCurve));
         }
     }
-    return display;
+    return codes;
+}
+
+Image displayedImage(const Image& radiance, const Display& display)
+{
+    Image picture = displayCodes(radiance, display);
+    for (float& code : picture.values) {
+        code = std::round(code * 255) / 255;
+    }
+    return picture;
 }
 
 float automaticExposure(const Image& radiance)
 {
-    std::vector<float> brightest;
-    for (int y = 0; y < radiance.height; ++y) {
-        for (int x = 0; x < radiance.width; ++x) {
-            const glm::vec3 value = radiance.rgb(x, y);
-            const float peak = std::max({value.x, value.y, value.z});
-            if (peak > 0) {
-                brightest.push_back(peak);
-            }
-        }
+    std::vector<uint8_t> shown(radiance.pixelCount());
+    bool isBlack = true;
+    for (size_t i = 0; i < shown.size(); ++i) {
+        const int x = static_cast<int>(i % radiance.width), y = static_cast<int>(i / radiance.width);
+        const glm::vec3 value = radiance.rgb(x, y);
+        shown[i] = std::max({value.x, value.y, value.z}) > 0;
+        isBlack = isBlack && !shown[i];
     }
-    return brightest.empty() ? 0.0f : std::log2(kExposedLevel / quantile(brightest, kExposedQuantile));
+    return isBlack ? 0.0f : exposureOfPeak(peakOf(radiance, shown));
 }
 
 } // namespace nacre

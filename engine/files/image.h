@@ -9,6 +9,8 @@
 
 #include <glm/vec3.hpp>
 
+#include "shared/tone.h"
+
 namespace nacre {
 
 // width x height x channels floats, row 0 on top, channels interleaved; linear Rec. 709 unless a field says otherwise.
@@ -109,10 +111,20 @@ bool drawText(Image& image, int x, int y, const std::string& text, int height);
 // The named text attribute, empty where there is none.
 std::string readImageAttribute(const std::filesystem::path& file, const std::string& name);
 
-// 8-bit sRGB code values in [0,1], rounded to n/255, of linear radiance times 2^exposure; 3 channels.
-Image displayImage(const Image& radiance, float exposureStops);
+// How linear radiance becomes a picture.
+struct Display {
+    float exposureStops = 0; // radiance times 2^this
+    int toneCurve = kToneSrgb;
+    bool operator==(const Display&) const = default;
+};
 
-// Stops that put the 99th percentile of the pixels' brightest channels at 0.9; pixels that are 0 do not count.
+// Code values in [0,1] before they are rounded; 3 channels.
+Image displayCodes(const Image& radiance, const Display& display);
+
+// 8-bit code values in [0,1], rounded to n/255; 3 channels. The twin of shaders/display.frag.
+Image displayedImage(const Image& radiance, const Display& display);
+
+// Stops that put the peak (measures.h) of what is not black at 0.9.
 float automaticExposure(const Image& radiance);
 
 } // namespace nacre

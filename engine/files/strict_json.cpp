@@ -34,9 +34,14 @@ json parsed(const std::filesystem::path& file)
 
 } // namespace
 
+JsonNode JsonNode::load(const std::filesystem::path& file)
+{
+    return {std::make_shared<std::filesystem::path>(file), std::make_shared<json>(parsed(file)), ""};
+}
+
 JsonNode JsonNode::loadVersioned(const std::filesystem::path& file, std::string_view format, int version)
 {
-    JsonNode root(std::make_shared<std::filesystem::path>(file), std::make_shared<json>(parsed(file)), "");
+    JsonNode root = load(file);
     const JsonNode formatNode = root.at("format");
     if (formatNode.text() != format) {
         throw formatNode.error(fmt::format("is \"{}\"", formatNode.text()), fmt::format("\"{}\"", format));
@@ -125,6 +130,15 @@ double JsonNode::number() const
     return number;
 }
 
+int JsonNode::whole(int least, int most) const
+{
+    const double found = number();
+    if (found < least || found > most || found != std::floor(found)) {
+        throw error(fmt::format("is {}", found), fmt::format("a whole number from {} to {}", least, most));
+    }
+    return static_cast<int>(found);
+}
+
 bool JsonNode::truth() const
 {
     if (!value_->is_boolean()) {
@@ -155,6 +169,12 @@ std::vector<double> JsonNode::numbers(size_t count) const
         throw error(fmt::format("has {} numbers", result.size()), fmt::format("{} numbers", count));
     }
     return result;
+}
+
+std::vector<float> JsonNode::floats(size_t count) const
+{
+    const std::vector<double> found = numbers(count);
+    return {found.begin(), found.end()};
 }
 
 glm::vec3 JsonNode::vector3() const

@@ -15,9 +15,11 @@
 namespace nacre {
 
 // A value in a JSON file that knows where it stands, so that every complaint names file and place, for instance
-// "photographs[3].light.direction". What is not understood is refused, never skipped.
+// "photographs[3].light.direction".
 class JsonNode {
 public:
+    // The root of any JSON.
+    static JsonNode load(const std::filesystem::path& file);
     // The root, an object with "format" and a "version" from 1 to `version`.
     static JsonNode loadVersioned(const std::filesystem::path& file, std::string_view format, int version);
 
@@ -32,9 +34,11 @@ public:
 
     std::string text() const;
     double number() const; // finite
-    bool truth() const;    // true or false
+    int whole(int least, int most) const;
+    bool truth() const; // true or false
     std::vector<JsonNode> items() const;
     std::vector<double> numbers(size_t count) const; // an array of as many
+    std::vector<float> floats(size_t count) const;
     glm::vec3 vector3() const;
     // A path relative to the JSON file, and something is there.
     std::filesystem::path existingPath() const;

@@ -2,6 +2,7 @@
 
 #include <cerrno>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <fstream>
 #include <sstream>
@@ -12,6 +13,7 @@
 #include "engine/files/error.h"
 
 namespace nacre {
+
 namespace fs = std::filesystem;
 
 namespace {
@@ -112,6 +114,24 @@ std::string readWholeFile(const fs::path& file, const std::string& expected)
     }
     text << stream.rdbuf();
     return text.str();
+}
+
+TemporaryFolder::TemporaryFolder()
+{
+    std::error_code error;
+    const std::filesystem::path parent = std::filesystem::temp_directory_path(error);
+    std::string name = (parent / "nacre-XXXXXX").string();
+    if (error || !mkdtemp(name.data())) {
+        throw Error(name, fmt::format("cannot be made: {}", error ? error.message() : std::strerror(errno)),
+                    "a writable folder for temporary files (TMPDIR)");
+    }
+    path_ = name;
+}
+
+TemporaryFolder::~TemporaryFolder()
+{
+    std::error_code ignored;
+    std::filesystem::remove_all(path_, ignored);
 }
 
 } // namespace nacre

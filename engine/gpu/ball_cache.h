@@ -3,10 +3,10 @@
 #include <span>
 #include <vector>
 
+#include "engine/files/image.h"
 #include "engine/gpu/direct_pass.h"
 #include "engine/gpu/pass.h"
 #include "engine/scene/ball_size.h"
-#include "engine/scene/display.h"
 
 namespace nacre {
 

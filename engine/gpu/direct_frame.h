@@ -1,7 +1,7 @@
 #pragma once
+#include "engine/files/image.h"
 #include "engine/gpu/direct_pass.h"
 #include "engine/gpu/residual_pass.h"
-#include "engine/scene/display.h"
 #include "engine/scene/scene.h"
 
 namespace nacre {

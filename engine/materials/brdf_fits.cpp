@@ -16,7 +16,7 @@ constexpr const char* kSgdHeader = "name,rhoD_r,rhoD_g,rhoD_b,rhoS_r,rhoS_g,rhoS
                                    "F0_r,F0_g,F0_b,F1_r,F1_g,F1_b,kap_r,kap_g,kap_b,lambda_r,lambda_g,lambda_b,"
                                    "c_r,c_g,c_b,k_r,k_g,k_b,theta0_r,theta0_g,theta0_b,error_r,error_g,error_b";
 
-struct Row {
+struct FitRow {
     std::string name;
     std::vector<float> numbers;
 
@@ -45,13 +45,13 @@ bool readLine(std::istream& stream, std::string& line)
     return true;
 }
 
-Row parseRow(const std::filesystem::path& csv, int lineNumber, const std::string& line, size_t columns)
+FitRow parseFit(const std::filesystem::path& csv, int lineNumber, const std::string& line, size_t columns)
 {
     std::vector<std::string> fields = splitAtCommas(line);
     if (fields.size() != columns) {
         throw Error(csv, fmt::format("line {} has {} fields", lineNumber, fields.size()), fmt::format("{}", columns));
     }
-    Row row{fields[0], {}};
+    FitRow row{fields[0], {}};
     for (size_t i = 1; i < fields.size(); ++i) {
         float number = 0;
         const char* end = fields[i].data() + fields[i].size();
@@ -65,7 +65,7 @@ Row parseRow(const std::filesystem::path& csv, int lineNumber, const std::string
     return row;
 }
 
-std::vector<Row> loadRows(const std::filesystem::path& csv, const std::string& header)
+std::vector<FitRow> loadFits(const std::filesystem::path& csv, const std::string& header)
 {
     std::ifstream stream(csv);
     std::string line;
@@ -76,10 +76,10 @@ std::vector<Row> loadRows(const std::filesystem::path& csv, const std::string& h
         throw Error(csv, "has another header", fmt::format("\"{}\"", header));
     }
     size_t columns = splitAtCommas(header).size();
-    std::vector<Row> rows;
+    std::vector<FitRow> rows;
     for (int lineNumber = 2; readLine(stream, line); ++lineNumber) {
         if (!line.empty()) {
-            rows.push_back(parseRow(csv, lineNumber, line, columns));
+            rows.push_back(parseFit(csv, lineNumber, line, columns));
         }
     }
     if (rows.empty()) {
@@ -93,7 +93,7 @@ std::vector<Row> loadRows(const std::filesystem::path& csv, const std::string& h
 std::vector<NamedBrdf> loadAbcFits(const std::filesystem::path& csv)
 {
     std::vector<NamedBrdf> fits;
-    for (const Row& r : loadRows(csv, kAbcHeader)) {
+    for (const FitRow& r : loadFits(csv, kAbcHeader)) {
         fits.push_back({r.name, AbcModel{r.rgb(0), r.rgb(3), r.numbers[6], r.numbers[7], r.numbers[8]}});
     }
     return fits;
@@ -102,7 +102,7 @@ std::vector<NamedBrdf> loadAbcFits(const std::filesystem::path& csv)
 std::vector<NamedBrdf> loadSgdFits(const std::filesystem::path& csv)
 {
     std::vector<NamedBrdf> fits;
-    for (const Row& r : loadRows(csv, kSgdHeader)) {
+    for (const FitRow& r : loadFits(csv, kSgdHeader)) {
         fits.push_back({r.name, SgdModel{.rhoD = r.rgb(0),
                                          .rhoS = r.rgb(3),
                                          .alpha = r.rgb(6),

@@ -13,11 +13,11 @@ namespace nacre {
 namespace {
 
 constexpr unsigned char kIdentifier[12] = {0xAB, 'K', 'T', 'X', ' ', '2', '0', 0xBB, '\r', '\n', 0x1A, '\n'};
-constexpr uint32_t kFormat = 97; // VK_FORMAT_R16G16B16A16_SFLOAT
+constexpr uint32_t kVulkanFormat = 97; // VK_FORMAT_R16G16B16A16_SFLOAT
 constexpr uint32_t kChannels = 4;
 constexpr uint32_t kChannelBytes = 2;
 constexpr uint32_t kTexelBytes = kChannels * kChannelBytes; // also the alignment of the levels
-constexpr float kLargestHalf = 65504.0f;
+constexpr float kLargestKtxHalf = 65504.0f;
 // Identifier, nine fields, index of the three blocks, and one level's entry.
 constexpr uint32_t kHeaderBytes = 12 + 9 * 4 + 4 * 4 + 2 * 8 + 3 * 8;
 
@@ -88,8 +88,8 @@ Bytes texels(const BrdfTable& table, size_t& clamped)
     for (size_t i = 0; i < table.values.size(); ++i) {
         const glm::vec4 texel(table.values[i], table.confidence[i]);
         for (uint32_t c = 0; c < kChannels; ++c) {
-            clamped += std::abs(texel[c]) > kLargestHalf;
-            const uint16_t half = glm::packHalf1x16(std::clamp(texel[c], -kLargestHalf, kLargestHalf));
+            clamped += std::abs(texel[c]) > kLargestKtxHalf;
+            const uint16_t half = glm::packHalf1x16(std::clamp(texel[c], -kLargestKtxHalf, kLargestKtxHalf));
             std::memcpy(&bytes[i * kTexelBytes + c * kChannelBytes], &half, kChannelBytes);
         }
     }
@@ -108,7 +108,7 @@ size_t saveKtx2(const std::filesystem::path& file, const BrdfTable& table)
     Bytes bytes(std::begin(kIdentifier), std::end(kIdentifier));
     constexpr uint32_t kLayers = 0, kFaces = 1, kLevels = 1, kSupercompression = 0;
     for (uint32_t field :
-         {kFormat, kChannelBytes, static_cast<uint32_t>(table.size.x), static_cast<uint32_t>(table.size.y),
+         {kVulkanFormat, kChannelBytes, static_cast<uint32_t>(table.size.x), static_cast<uint32_t>(table.size.y),
           static_cast<uint32_t>(table.size.z), kLayers, kFaces, kLevels, kSupercompression}) {
         append(bytes, field);
     }

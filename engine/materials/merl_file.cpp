@@ -19,7 +19,7 @@ constexpr size_t kCells = size_t{kThetaH} * kThetaD * kPhiD;
 constexpr size_t kMerlHeaderBytes = 3 * sizeof(int32_t);
 constexpr size_t kFileBytes = kMerlHeaderBytes + 3 * kCells * sizeof(double);
 constexpr std::array<double, 3> kScale{1.0 / 1500, 1.15 / 1500, 1.66 / 1500};
-constexpr const char* kExpected = "a MERL file of 90x90x180 cells, 34992012 bytes";
+constexpr const char* kMerlFile = "a MERL file of 90x90x180 cells, 34992012 bytes";
 
 size_t cellIndex(int i, int j, int k)
 {
@@ -55,7 +55,7 @@ Cells cellsOf(const std::filesystem::path& file, const std::string& bytes)
         for (int c = 0; c < 3; ++c) {
             const double f = numberAt(c * kCells + cell) * kScale[c];
             if (!std::isfinite(f)) {
-                throw Error(file, fmt::format("holds a value that is no number at cell {}", cell), kExpected);
+                throw Error(file, fmt::format("holds a value that is no number at cell {}", cell), kMerlFile);
             }
             cells.values[cell][c] = static_cast<float>(f);
             cells.measured[cell] &= f >= 0;
@@ -67,18 +67,18 @@ Cells cellsOf(const std::filesystem::path& file, const std::string& bytes)
 void checkShape(const std::filesystem::path& file, const std::string& bytes)
 {
     if (bytes.size() < kMerlHeaderBytes) {
-        throw Error(file, fmt::format("has {} bytes", bytes.size()), kExpected);
+        throw Error(file, fmt::format("has {} bytes", bytes.size()), kMerlFile);
     }
     std::array<int32_t, 3> shape;
     std::memcpy(shape.data(), bytes.data(), kMerlHeaderBytes);
     if (shape != std::array<int32_t, 3>{kThetaH, kThetaD, kPhiD}) {
-        throw Error(file, fmt::format("begins with the shape {}x{}x{}", shape[0], shape[1], shape[2]), kExpected);
+        throw Error(file, fmt::format("begins with the shape {}x{}x{}", shape[0], shape[1], shape[2]), kMerlFile);
     }
     if (bytes.size() != kFileBytes) {
         throw Error(
             file,
             fmt::format("has {} bytes and is {}", bytes.size(), bytes.size() < kFileBytes ? "cut short" : "too long"),
-            kExpected);
+            kMerlFile);
     }
 }
 
@@ -118,7 +118,7 @@ BrdfValue sampleFolded(const Cells& cells, const HalfDifference& c)
 
 BrdfTable loadMerl(const std::filesystem::path& file, const glm::ivec3& size)
 {
-    const std::string bytes = readWholeFile(file, kExpected);
+    const std::string bytes = readWholeFile(file, kMerlFile);
     checkShape(file, bytes);
     const Cells cells = cellsOf(file, bytes);
     BrdfTable table(size, {kHalfDifference, kHalfPi});

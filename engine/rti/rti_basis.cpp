@@ -13,26 +13,28 @@ std::vector<double> biquadratic(double x, double y)
     return {1, x, y, x * x, x * y, y * y};
 }
 
-// Shifted Legendre functions of 2 cos(theta) - 1, written out, times cos or sin of m phi.
-std::vector<double> hemisphericalHarmonics(const glm::dvec3& light)
+} // namespace
+
+// Shifted Legendre functions of 2 cos(theta) - 1 times cos or sin of m phi; even m with the sign of `relight`.
+std::vector<double> hemisphericalHarmonics(const glm::vec3& light, int order)
 {
     using std::numbers::pi;
-    const double theta = std::min(std::acos(std::clamp(light.z, -1.0, 1.0)), pi / 2 - kLowestRtiLight);
-    const double phi = std::atan2(light.y, light.x);
-    const double c = std::cos(theta);
-    const double s = std::sqrt(c - c * c);
-    return {1 / std::sqrt(2 * pi),
-            std::sqrt(6 / pi) * s * std::cos(phi),
-            std::sqrt(3 / (2 * pi)) * (2 * c - 1),
-            std::sqrt(6 / pi) * s * std::sin(phi),
-            -std::sqrt(30 / pi) * s * s * std::cos(2 * phi),
-            std::sqrt(30 / pi) * (2 * c - 1) * s * std::cos(phi),
-            std::sqrt(5 / (2 * pi)) * (1 - 6 * c + 6 * c * c),
-            std::sqrt(30 / pi) * (2 * c - 1) * s * std::sin(phi),
-            -std::sqrt(30 / pi) * s * s * std::sin(2 * phi)};
+    const double z = std::clamp<double>(light.z, -1, 1);
+    const double theta = std::min(std::acos(z), pi / 2 - kLowestRtiLight);
+    const double argument = 2 * std::cos(theta) - 1, phi = std::atan2(double{light.y}, double{light.x});
+    std::vector<double> values;
+    for (int l = 0; l <= order; ++l) {
+        for (int m = -l; m <= l; ++m) {
+            const int k = std::abs(m);
+            const double square = (2 * l + 1) * std::tgamma(l - k + 1) / (2 * pi * std::tgamma(l + k + 1));
+            const double legendre = std::assoc_legendre(static_cast<unsigned>(l), static_cast<unsigned>(k), argument);
+            const double azimuth = m < 0 ? std::cos(k * phi) : std::sin(k * phi);
+            const double sign = k % 2 ? 1 : -1;
+            values.push_back(std::sqrt(square) * legendre * (m == 0 ? 1 : sign * std::sqrt(2.0) * azimuth));
+        }
+    }
+    return values;
 }
-
-} // namespace
 
 std::string rtiBasisName(RtiBasis basis)
 {
@@ -46,7 +48,7 @@ size_t rtiTermCount(RtiBasis basis)
 
 std::vector<double> rtiWeights(RtiBasis basis, const glm::vec3& light)
 {
-    return basis == RtiBasis::ptm ? biquadratic(light.x, light.y) : hemisphericalHarmonics(light);
+    return basis == RtiBasis::ptm ? biquadratic(light.x, light.y) : hemisphericalHarmonics(light, 2);
 }
 
 } // namespace nacre

@@ -21,8 +21,12 @@ size_t rtiTermCount(RtiBasis basis); // 6 or 9
 // Lights lower than this [radians above the picture's plane] are taken to stand there: hsh has no value on the horizon.
 inline constexpr double kLowestRtiLight = 0.15;
 
+// Hemispherical harmonics up to an order, orthonormal over the hemisphere: (order + 1)^2 values, by degree l, in each
+// cos(l phi) to cos(phi), the one that does not turn, sin(phi) to sin(l phi).
+std::vector<double> hemisphericalHarmonics(const glm::vec3& light, int order);
+
 // The functions' values for a unit direction towards the light, x right, y up, z towards the camera. In the order of
-// the planes of `relight`: ptm 1, x, y, x^2, xy, y^2; hsh by degree, then order.
+// the planes of `relight`: ptm 1, x, y, x^2, xy, y^2; hsh the harmonics to the second order.
 std::vector<double> rtiWeights(RtiBasis basis, const glm::vec3& light);
 
 } // namespace nacre

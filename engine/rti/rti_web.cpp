@@ -3,18 +3,18 @@
 #include <algorithm>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
-#include "engine/files/error.h"
+#include "engine/files/strict_json.h"
 #include "engine/files/whole_file.h"
 
 namespace nacre {
 namespace fs = std::filesystem;
-using nlohmann::json;
 
 namespace {
 
 constexpr int kQuality = 95; // of JPEG, as relight's default
+constexpr int kMostPlanes = 1000;
+constexpr int kMostPixels = 1 << 16; // a side, as JPEG has it
 
 // v = value / scale + bias lies in [0, 1].
 struct Quantisation {
@@ -61,30 +61,26 @@ void savePlane(const fs::path& file, Image plane, const float* scale, const floa
               {{"Compression", fmt::format("jpeg:{}", kQuality)}, {"jpeg:subsampling", "4:4:4"}});
 }
 
-RtiBasis basisOf(const fs::path& file, const json& info)
+RtiBasis basisOf(const JsonNode& info)
 {
+    const std::string type = info.at("type").text(), colours = info.at("colorspace").text();
+    const int planes = info.at("nplanes").whole(1, kMostPlanes);
     for (const RtiBasis basis : {RtiBasis::ptm, RtiBasis::hsh}) {
-        if (info.at("type") == rtiBasisName(basis) && info.at("colorspace") == "rgb" &&
-            info.at("nplanes") == 3 * rtiTermCount(basis)) {
+        if (type == rtiBasisName(basis) && colours == "rgb" && planes == 3 * static_cast<int>(rtiTermCount(basis))) {
             return basis;
         }
     }
-    throw Error(file,
-                fmt::format("is of type {}, colour space {}, {} planes", info.at("type").dump(),
-                            info.at("colorspace").dump(), info.at("nplanes").dump()),
-                "ptm with 18 or hsh with 27 planes, rgb");
+    throw info.error(fmt::format("is of type {}, colour space {}, {} planes", type, colours, planes),
+                     "ptm with 18 or hsh with 27 planes, rgb");
 }
 
-Quantisation readQuantisation(const fs::path& file, const json& info, size_t planes)
+Quantisation readQuantisation(const JsonNode& info, size_t planes)
 {
-    const json& material = info.at("materials").at(0);
-    Quantisation quantisation{material.at("scale"), material.at("bias")};
-    if (quantisation.scale.size() != planes || quantisation.bias.size() != planes) {
-        throw Error(file,
-                    fmt::format("has {} scales and {} biases", quantisation.scale.size(), quantisation.bias.size()),
-                    fmt::format("one for each of {} planes", planes));
+    const std::vector<JsonNode> materials = info.at("materials").items();
+    if (materials.size() != 1) {
+        throw info.at("materials").error(fmt::format("has {} elements", materials.size()), "one");
     }
-    return quantisation;
+    return {materials[0].at("scale").floats(planes), materials[0].at("bias").floats(planes)};
 }
 
 Image loadPlane(const fs::path& file, int width, int height, const float* scale, const float* bias)
@@ -108,37 +104,33 @@ void saveRtiWeb(const fs::path& folder, const RtiPicture& picture, std::span<con
     for (size_t k = 0; k < picture.terms.size(); ++k) {
         savePlane(planeFile(folder, k), picture.terms[k], &quantisation.scale[3 * k], &quantisation.bias[3 * k]);
     }
-    json directions = json::array();
+    nlohmann::json directions = nlohmann::json::array();
     for (const glm::vec3& light : lights) {
         directions.insert(directions.end(), {light.x, light.y, light.z});
     }
-    const json info = {{"width", picture.width()},
-                       {"height", picture.height()},
-                       {"format", "jpg"},
-                       {"type", rtiBasisName(picture.basis)},
-                       {"colorspace", "rgb"},
-                       {"nplanes", 3 * picture.terms.size()},
-                       {"quality", kQuality},
-                       {"lights", directions},
-                       {"materials", {{{"scale", quantisation.scale}, {"bias", quantisation.bias}}}}};
+    const nlohmann::json info = {{"width", picture.width()},
+                                 {"height", picture.height()},
+                                 {"format", "jpg"},
+                                 {"type", rtiBasisName(picture.basis)},
+                                 {"colorspace", "rgb"},
+                                 {"nplanes", 3 * picture.terms.size()},
+                                 {"quality", kQuality},
+                                 {"lights", directions},
+                                 {"materials", {{{"scale", quantisation.scale}, {"bias", quantisation.bias}}}}};
     writeTextFile(folder / "info.json", info.dump(1) + "\n");
 }
 
 RtiPicture loadRtiWeb(const fs::path& folder)
 {
-    const fs::path file = folder / "info.json";
-    try {
-        const json info = json::parse(readTextFile(file));
-        RtiPicture picture{basisOf(file, info), {}};
-        const Quantisation quantisation = readQuantisation(file, info, 3 * rtiTermCount(picture.basis));
-        for (size_t k = 0; k < rtiTermCount(picture.basis); ++k) {
-            picture.terms.push_back(loadPlane(planeFile(folder, k), info.at("width"), info.at("height"),
-                                              &quantisation.scale[3 * k], &quantisation.bias[3 * k]));
-        }
-        return picture;
-    } catch (const json::exception& e) {
-        throw Error(file, fmt::format("is not understood: {}", e.what()), "the info.json of an RTI for the web");
+    const JsonNode info = JsonNode::load(folder / "info.json");
+    RtiPicture picture{basisOf(info), {}};
+    const int width = info.at("width").whole(1, kMostPixels), height = info.at("height").whole(1, kMostPixels);
+    const Quantisation quantisation = readQuantisation(info, 3 * rtiTermCount(picture.basis));
+    for (size_t k = 0; k < rtiTermCount(picture.basis); ++k) {
+        picture.terms.push_back(
+            loadPlane(planeFile(folder, k), width, height, &quantisation.scale[3 * k], &quantisation.bias[3 * k]));
     }
+    return picture;
 }
 
 } // namespace nacre

@@ -1,34 +1,85 @@
 #include "engine/scene/ball.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
 
+#include "engine/brdf/brdf_audit.h"
 #include "engine/files/parallel_for.h"
+#include "engine/lights/light_rigs.h"
+#include "engine/surface/normal_map.h"
 #include "shared/ball.h"
 #include "shared/shading.h"
 
 namespace nacre {
 
+namespace {
+
+constexpr glm::vec3 kView(0, 0, 1);
+
+} // namespace
+
+Image materialBall(const BrdfModel& model, std::span<const Light> lights, int size, int threads)
+{
+    const NormalMap sphere = sphereNormalMap(size);
+    Image picture(size, size, 3);
+    parallelFor(picture.pixelCount(), 1024, threads, [&](size_t first, size_t last) {
+        for (size_t i = first; i < last; ++i) {
+            const glm::vec3 n = sphere.normals[i];
+            if (sphere.confidence[i] > 0) {
+                const glm::vec3 radiance =
+                    radianceUnder(lights, n, [&](const glm::vec3& l) { return evaluate(model, n, l, kView); });
+                std::copy_n(&radiance.x, 3, &picture.values[3 * i]);
+            }
+        }
+    });
+    return picture;
+}
+
+Image materialThumbnail(const BrdfModel& model, int size)
+{
+    constexpr float kSurroundings = 0.04f;       // radiance beside the key's irradiance of 1
+    constexpr std::array kAngles{0, 30, 55, 75}; // degrees; flatter views have the last one's
+    const std::vector<Light> key = lightsOfRig("key");
+    std::array<glm::vec3, kAngles.size()> albedos;
+    for (size_t i = 0; i < kAngles.size(); ++i) {
+        albedos[i] = directionalAlbedo(functionOf(model), kAngles[i]).albedo;
+    }
+    Image picture = materialBall(model, key, size, 1);
+    const NormalMap sphere = sphereNormalMap(size);
+    for (size_t pixel = 0; pixel < picture.pixelCount(); ++pixel) {
+        if (sphere.confidence[pixel] <= 0) {
+            continue;
+        }
+        const float theta = glm::degrees(std::acos(std::min(sphere.normals[pixel].z, 1.0f)));
+        size_t i = 0;
+        while (i + 2 < kAngles.size() && theta > kAngles[i + 1]) {
+            ++i;
+        }
+        const float along = (theta - kAngles[i]) / static_cast<float>(kAngles[i + 1] - kAngles[i]);
+        const glm::vec3 albedo = glm::mix(albedos[i], albedos[i + 1], glm::clamp(along, 0.0f, 1.0f));
+        for (int c = 0; c < 3; ++c) {
+            picture.values[3 * pixel + c] += kSurroundings * albedo[c];
+        }
+    }
+    return picture;
+}
+
 Ball makeBall(const BrdfTable& table, std::span<const Light> lights, int size, int threads)
 {
-    const glm::vec3 view(0, 0, 1);
     Ball ball{Image(size, size, 3)};
     parallelFor(size, 4, threads, [&](size_t first, size_t last) {
         for (int y = static_cast<int>(first); y < static_cast<int>(last); ++y) {
             for (int x = 0; x < size; ++x) {
                 const glm::vec2 texel((x + 0.5f) / size, (y + 0.5f) / size);
                 const glm::vec3 n = normalFromBallTexel(texel, static_cast<float>(size));
-                glm::vec3 sum(0);
-                for (const Light& light : lights) {
-                    const float nDotL = glm::dot(n, light.direction);
-                    if (nDotL > 0) {
-                        sum += radianceFromBrdf(evaluateTable(table, n, light.direction, view).value, light.irradiance,
-                                                nDotL);
-                    }
-                }
-                ball.radiance.setRgb(x, y, sum);
+                ball.radiance.setRgb(x, y, radianceUnder(lights, n, [&](const glm::vec3& l) {
+                                         return evaluateTable(table, n, l, kView).value;
+                                     }));
             }
         }
     });

@@ -8,9 +8,9 @@
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
+#include "engine/files/image.h"
 #include "engine/files/measures.h"
 #include "engine/scene/ball.h"
-#include "engine/scene/display.h"
 #include "shared/shading.h"
 
 namespace nacre {
@@ -54,18 +54,6 @@ std::vector<glm::vec3> probeNormals()
         }
     }
     return normals;
-}
-
-glm::vec3 directRadiance(const BrdfTable& table, const std::vector<Light>& lights, const glm::vec3& n)
-{
-    glm::vec3 sum(0);
-    for (const Light& light : lights) {
-        const float nDotL = glm::dot(n, light.direction);
-        if (nDotL > 0) {
-            sum += radianceFromBrdf(evaluateTable(table, n, light.direction, {0, 0, 1}).value, light.irradiance, nDotL);
-        }
-    }
-    return sum;
 }
 
 bool isCloseEnough(const Image& picture, const Image& expected)
@@ -113,8 +101,11 @@ BallSize measuredBallSize(const BrdfTable& table, int threads)
 {
     const std::vector<Light> lights = probeLights();
     const std::vector<glm::vec3> normals = probeNormals();
-    const std::vector<glm::vec3> truth =
-        sampled(normals, [&](const glm::vec3& n) { return directRadiance(table, lights, n); });
+    const std::vector<glm::vec3> truth = sampled(normals, [&](const glm::vec3& n) {
+        return radianceUnder(lights, n, [&](const glm::vec3& l) {
+            return evaluateTable(table, n, l, {0, 0, 1}).value;
+        });
+    });
     const float stops = exposureOf(truth);
     const Image expected = pictureOf(truth, stops);
     BallSize best;

@@ -1,7 +1,7 @@
 #pragma once
 #include <span>
 
-#include "engine/scene/display.h"
+#include "engine/files/image.h"
 #include "engine/scene/scene.h"
 #include "shared/false_colour.h"
 

@@ -1,8 +1,8 @@
 #pragma once
 #include <span>
 
+#include "engine/files/image.h"
 #include "engine/scene/ball_size.h"
-#include "engine/scene/display.h"
 #include "engine/scene/scene.h"
 
 namespace nacre {

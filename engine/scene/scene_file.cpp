@@ -8,7 +8,7 @@
 
 namespace nacre {
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
+using SceneJson = nlohmann::ordered_json;
 
 namespace {
 
@@ -35,7 +35,7 @@ template <class Scene, class Visitor> void visitScene(Scene& scene, Visitor&& vi
     visit("frames", scene.frames);
     visit("motion", scene.motion);
     visit("shadows", scene.shadows);
-    visit("residual", scene.residual);
+    visit("layer", scene.residual);
 }
 
 template <class Window, class Visitor> void visitWindow(Window& window, Visitor&& visit)
@@ -58,24 +58,24 @@ bool isEmpty(const auto& value)
     }
 }
 
-void read(std::string& value, const Json& json, const fs::path&)
+void read(std::string& value, const SceneJson& json, const fs::path&)
 {
     value = json.get<std::string>();
 }
 
-void read(fs::path& value, const Json& json, const fs::path& folder)
+void read(fs::path& value, const SceneJson& json, const fs::path& folder)
 {
     value = folder / json.get<std::string>();
 }
 
-template <class Number> void read(std::optional<Number>& value, const Json& json, const fs::path&)
+template <class Number> void read(std::optional<Number>& value, const SceneJson& json, const fs::path&)
 {
     value = json.get<Number>();
 }
 
-template <class Element> void read(std::vector<Element>& values, const Json& json, const fs::path& folder)
+template <class Element> void read(std::vector<Element>& values, const SceneJson& json, const fs::path& folder)
 {
-    for (const Json& item : json.get_ref<const Json::array_t&>()) { // throws where it is no array
+    for (const SceneJson& item : json.get_ref<const SceneJson::array_t&>()) { // throws where it is no array
         if constexpr (std::is_same_v<Element, fs::path>) {
             values.push_back(folder / item.get<std::string>());
         } else {
@@ -85,7 +85,7 @@ template <class Element> void read(std::vector<Element>& values, const Json& jso
 }
 
 // Reads the keys that `visit` knows and takes them out of the object.
-auto readingFrom(Json& json, const fs::path& folder)
+auto readingFrom(SceneJson& json, const fs::path& folder)
 {
     return [&json, folder](const char* key, auto& value) {
         const auto found = json.find(key);
@@ -98,7 +98,7 @@ auto readingFrom(Json& json, const fs::path& folder)
     };
 }
 
-void requireNothingLeft(const Json& json, const fs::path& file, const char* expected)
+void requireNothingLeft(const SceneJson& json, const fs::path& file, const char* expected)
 {
     if (!json.empty()) {
         throw Error(file, fmt::format("has the unknown key '{}'", json.begin().key()), expected);
@@ -111,7 +111,7 @@ std::string written(const fs::path& value, const fs::path& folder)
     return fs::absolute(value).lexically_normal().lexically_proximate(from.lexically_normal()).string();
 }
 
-auto writingTo(Json& json, const fs::path& folder)
+auto writingTo(SceneJson& json, const fs::path& folder)
 {
     return [&json, folder](const char* key, const auto& value) {
         using Value = std::remove_cvref_t<decltype(value)>;
@@ -137,28 +137,28 @@ auto writingTo(Json& json, const fs::path& folder)
 void completeScene(SceneFile& scene, const fs::path& file)
 {
     try {
-        Json json = Json::parse(readTextFile(file));
+        SceneJson json = SceneJson::parse(readTextFile(file));
         if (!json.is_object() || json.value("format", "") != kFormat || json.value("version", 0) != kVersion) {
             throw Error(file, "is no scene", R"("format": "nacre scene", "version": 1)");
         }
         json.erase("format");
         json.erase("version");
-        Json window = json.value("window", Json::object());
+        SceneJson window = json.value("window", SceneJson::object());
         json.erase("window");
         visitScene(scene, readingFrom(json, file.parent_path()));
         visitWindow(scene.window, readingFrom(window, file.parent_path()));
         requireNothingLeft(json, file, "the long options of nacre render");
         requireNothingLeft(window, file, "the keys of \"window\" in docs/formats.md");
-    } catch (const Json::exception& e) {
+    } catch (const SceneJson::exception& e) {
         throw Error(file, std::string("is not understood: ") + e.what(), "the form of docs/formats.md");
     }
 }
 
 std::string textOf(const SceneFile& scene, const fs::path& folder)
 {
-    Json json{{"format", kFormat}, {"version", kVersion}};
+    SceneJson json{{"format", kFormat}, {"version", kVersion}};
     visitScene(scene, writingTo(json, folder));
-    Json window = Json::object();
+    SceneJson window = SceneJson::object();
     visitWindow(scene.window, writingTo(window, folder));
     if (!window.empty()) {
         json["window"] = window;

@@ -70,7 +70,7 @@ ResidualUse residualUseFromName(const std::string& name)
         }
     }
     if (!name.empty()) {
-        throw notKnown("--residual", name, "on, off or alone");
+        throw notKnown("--layer", name, "on, off or alone");
     }
     return ResidualUse::on;
 }

@@ -17,11 +17,11 @@ void requireResidual(const Surface& surface, const glm::vec3& view, ResidualUse 
         return;
     }
     if (surface.residual.empty()) {
-        throw Error("", "--residual alone: what is drawn has no residual layer",
+        throw Error("", "--layer alone: what is drawn has no residual layer",
                     "a surface of nacre acquire --residual difference, on its own shape and in its own materials",
                     Error::kUsage);
     }
-    throw Error("", "--residual alone: the residual layer is for the view from the front", "--view 0,0,1 or none",
+    throw Error("", "--layer alone: the residual layer is for the view from the front", "--view 0,0,1 or none",
                 Error::kUsage);
 }
 

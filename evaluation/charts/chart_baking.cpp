@@ -1,9 +1,8 @@
 #include "evaluation/charts/chart_baking.h"
 
-#include <chrono>
-
 #include "acquisition/chain/material_albedo.h"
 #include "acquisition/segmentation/label_picture.h"
+#include "engine/files/stopwatch.h"
 
 namespace nacre {
 
@@ -38,7 +37,7 @@ Surface ChartBaking::bake(const BrdfSetting& setting, double& seconds)
     interpolation.k = setting.k;
     Surface surface = surface_;
     const std::vector<BrdfSamples>& samples = found_.gathered.samples;
-    const auto start = std::chrono::steady_clock::now();
+    const Stopwatch watch;
     for (size_t i = 0; i < samples.size(); ++i) {
         BakeOptions bake = options_.bake;
         bake.size = chartTableSizes(tableSize(samples[i].domain))[setting.size];
@@ -46,7 +45,7 @@ Surface ChartBaking::bake(const BrdfSetting& setting, double& seconds)
         surface.materials.push_back(
             {segmentation_.regions[i].name, std::move(baked.table), std::move(baked.coverage), {}});
     }
-    seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    seconds = watch.seconds();
     std::vector<BrdfTable*> tables;
     for (Material& material : surface.materials) {
         tables.push_back(&material.table);

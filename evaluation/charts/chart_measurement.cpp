@@ -28,7 +28,7 @@ JudgingPhotographs readHeldOut(const Capture& capture, const AcquireOptions& opt
     const std::vector<size_t> chosen = heldOutIndices(capture.photographs.size(), {.heldOutEvery = kChartHeldOutEvery});
     JudgingPhotographs heldOut;
     ObservationReader(capture, options.normals.threads, ~size_t{0}).next(heldOut.seen);
-    heldOut.peak = peakOf(heldOut.seen);
+    heldOut.peak = peakOf(heldOut.seen.radiance);
     heldOut.seen = selectLights(heldOut.seen, chosen);
     heldOut.lights = selectLights(rig.lights, chosen);
     return heldOut;

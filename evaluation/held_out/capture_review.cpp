@@ -28,14 +28,14 @@ Observations readOne(const Capture& capture, size_t photograph, int threads)
 double sampledPeak(const Capture& capture, int threads)
 {
     const size_t step = std::max<size_t>(1, capture.maskPixels * capture.photographs.size() * 3 / kPeakSamples);
-    std::vector<float> values;
+    std::vector<glm::vec3> values;
     for (size_t i = 0; i < capture.photographs.size(); ++i) {
         const Observations seen = readOne(capture, i, threads);
         for (size_t p = 0; p < seen.radiance.size(); p += step) {
-            values.insert(values.end(), {seen.radiance[p].x, seen.radiance[p].y, seen.radiance[p].z});
+            values.push_back(seen.radiance[p]);
         }
     }
-    return values.empty() ? 1.0 : std::max(quantile(values, 0.99), 1e-12f);
+    return peakOf(values);
 }
 
 // Names, lights and what the acquisition has seen of them.
@@ -129,7 +129,8 @@ CaptureReview reviewCapture(const Capture& capture, const AcquireOptions& option
             photograph.heldOutPsnr = psnrOf(*withheld, one, threads);
         }
         const Image picture = pictureOf(one.seen, one.seen.radiance, 0, capture.width, capture.height);
-        photograph.thumbnail = displayImage(thumbnailOf(picture, capture, kThumbnailSide), exposureOfPeak(peak));
+        photograph.thumbnail =
+            displayedImage(thumbnailOf(picture, capture, kThumbnailSide), {.exposureStops = exposureOfPeak(peak)});
     }
     return review;
 }

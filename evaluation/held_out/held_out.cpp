@@ -1,7 +1,6 @@
 #include "evaluation/held_out/held_out.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -11,6 +10,7 @@
 #include "acquisition/normals/pixel_sample.h"
 #include "engine/files/measures.h"
 #include "engine/files/parallel_for.h"
+#include "engine/files/stopwatch.h"
 #include "evaluation/held_out/judging_photographs.h"
 
 namespace nacre {
@@ -20,20 +20,17 @@ namespace {
 struct Truth {
     Observations heldOut, given;
     std::vector<Light> heldOutLights, givenLights;
-    double peak = 1, greyPeak = 1; // 99th percentiles
+    double peak = 1, greyPeak = 1;
 };
 
-double percentile99(const Observations& all, bool grey)
+double greyPeakOf(const Observations& all)
 {
     std::vector<float> values;
+    values.reserve(all.radiance.size());
     for (const glm::vec3& v : all.radiance) {
-        if (grey) {
-            values.push_back(greyOf(v));
-        } else {
-            values.insert(values.end(), {v.x, v.y, v.z});
-        }
+        values.push_back(greyOf(v));
     }
-    return values.empty() ? 1.0 : std::max(quantile(values, 0.99), 1e-12f);
+    return peakOf(values);
 }
 
 // The irradiances that all photographs together give, where the acquisition may correct them: one that nobody can know
@@ -94,8 +91,7 @@ Truth readTruth(const Capture& capture, const Rig& calibrated, const std::vector
     for (Light& light : asked) {
         light.irradiance *= scale;
     }
-    return {selectLights(all, heldOut), selectLights(all, given), asked, found,
-            percentile99(all, false),   percentile99(all, true)};
+    return {selectLights(all, heldOut), selectLights(all, given), asked, found, peakOf(all.radiance), greyPeakOf(all)};
 }
 
 double ownPeakOf(const Observations& seen, size_t photograph)
@@ -104,7 +100,7 @@ double ownPeakOf(const Observations& seen, size_t photograph)
     for (size_t p = 0; p < seen.pixels.size(); ++p) {
         values.push_back(greyOf(seen.radianceOf(p)[photograph]));
     }
-    return values.empty() ? 1.0 : std::max(quantile(values, 0.99), 1e-12f);
+    return peakOf(values);
 }
 
 // Squared errors of one method over all that was held out so far.
@@ -224,9 +220,9 @@ HeldOutEvaluation evaluateHeldOut(const Capture& capture, AcquireOptions options
     std::vector<BaselineErrors> others(baselines.begin(), baselines.end());
     for (size_t round = 0; round < rounds; ++round) {
         options.lights.heldOutFirst = round;
-        const auto start = std::chrono::steady_clock::now();
+        const Stopwatch watch;
         evaluation.acquisition = acquire(capture, options, progress);
-        evaluation.seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+        evaluation.seconds += watch.seconds();
         const std::vector<size_t> given = chosenLights(rig.lights, options.lights);
         const std::vector<size_t> heldOut = heldOutIndices(capture.photographs.size(), options.lights);
         evaluation.given = given.size();

@@ -7,7 +7,7 @@
 #include "acquisition/capture/capture_window.h"
 #include "acquisition/capture/matlab_normals.h"
 #include "acquisition/lights/sphere_outline.h"
-#include "engine/files/structural_similarity.h"
+#include "engine/files/measures.h"
 #include "engine/scene/reference.h"
 
 namespace nacre {
@@ -74,11 +74,6 @@ std::vector<float> relativeErrors(const Image& predicted, const Image& photograp
     return errors;
 }
 
-float exposureOfPeak(double peak)
-{
-    return static_cast<float>(std::log2(0.9 / peak));
-}
-
 PhotographMeasures measurePhotograph(const Image& predicted, const Image& photograph, std::span<const uint8_t> mask,
                                      double peak)
 {
@@ -88,8 +83,8 @@ PhotographMeasures measurePhotograph(const Image& predicted, const Image& photog
     measures.medianRelativeError = quantile(errors, 0.5);
     measures.percentile95RelativeError = quantile(errors, 0.95);
     const float stops = exposureOfPeak(peak);
-    measures.structuralSimilarity =
-        structuralSimilarity(displayImage(predicted, stops), displayImage(photograph, stops), mask);
+    measures.structuralSimilarity = structuralSimilarity(displayedImage(predicted, {.exposureStops = stops}),
+                                                         displayedImage(photograph, {.exposureStops = stops}), mask);
     return measures;
 }
 

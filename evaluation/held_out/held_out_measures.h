@@ -45,9 +45,6 @@ struct PhotographMeasures {
 // Below this share of the capture's peak a relative error is told against it: noise of black is not a large error.
 constexpr double kRelativeErrorFloor = 0.01;
 
-// Stops that put a capture's peak where automaticExposure puts a picture's: the same for all of its photographs.
-float exposureOfPeak(double peak);
-
 // `peak`: the 99th percentile of all that the capture's mask shows.
 PhotographMeasures measurePhotograph(const Image& predicted, const Image& photograph, std::span<const uint8_t> mask,
                                      double peak);

@@ -17,16 +17,6 @@ std::vector<size_t> heldOutIndices(size_t photographs, const LightChoice& choice
     return chosen;
 }
 
-double peakOf(const Observations& seen)
-{
-    std::vector<float> values;
-    values.reserve(3 * seen.radiance.size());
-    for (const glm::vec3& v : seen.radiance) {
-        values.insert(values.end(), {v.x, v.y, v.z});
-    }
-    return values.empty() ? 1.0 : std::max(quantile(values, 0.99), 1e-12f);
-}
-
 JudgingPhotographs readJudging(const Capture& capture, const AcquireOptions& options, size_t every)
 {
     const Rig rig = calibrateLights(capture, options.calibration);
@@ -35,7 +25,7 @@ JudgingPhotographs readJudging(const Capture& capture, const AcquireOptions& opt
     judging.lights = selectLights(rig.lights, chosen);
     const Capture heldOut = selectPhotographs(capture, chosen);
     ObservationReader(heldOut, options.normals.threads, ~size_t{0}).next(judging.seen);
-    judging.peak = peakOf(judging.seen);
+    judging.peak = peakOf(judging.seen.radiance);
     return judging;
 }
 

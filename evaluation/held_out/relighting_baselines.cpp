@@ -6,43 +6,30 @@
 #include <Eigen/Dense>
 #include <glm/geometric.hpp>
 
+#include "acquisition/residual/light_spline.h"
+#include "engine/lights/light_plane.h"
+#include "engine/rti/rti_basis.h"
+
 namespace nacre {
 
 namespace {
 
 using Directions = std::vector<glm::vec3>;
 
-Eigen::MatrixXd polynomials(const Directions& directions)
+// A row of the basis's values for each direction.
+template <class Terms> Eigen::MatrixXd rowsOf(const Directions& directions, const Terms& termsOf)
 {
-    Eigen::MatrixXd basis(directions.size(), 6);
+    Eigen::MatrixXd rows;
     for (size_t i = 0; i < directions.size(); ++i) {
-        const double x = directions[i].x, y = directions[i].y;
-        basis.row(static_cast<Eigen::Index>(i)) << x * x, y * y, x * y, x, y, 1;
+        const std::vector<double> terms = termsOf(directions[i]);
+        rows.conservativeResize(static_cast<Eigen::Index>(directions.size()), static_cast<Eigen::Index>(terms.size()));
+        rows.row(static_cast<Eigen::Index>(i)) =
+            Eigen::Map<const Eigen::RowVectorXd>(terms.data(), static_cast<Eigen::Index>(terms.size()));
     }
-    return basis;
+    return rows;
 }
 
-// H_l^m up to factors, which a least-squares fit does not feel: P_l^|m|(2 cos theta - 1) times cos or sin of m phi.
-Eigen::MatrixXd harmonics(const Directions& directions, int order)
-{
-    Eigen::MatrixXd basis(directions.size(), (order + 1) * (order + 1));
-    for (size_t i = 0; i < directions.size(); ++i) {
-        const glm::vec3& d = directions[i];
-        const double cosine = std::clamp(2.0 * d.z - 1.0, -1.0, 1.0), azimuth = std::atan2(d.y, d.x);
-        Eigen::Index column = 0;
-        for (int l = 0; l <= order; ++l) {
-            for (int m = -l; m <= l; ++m) {
-                const double legendre =
-                    std::assoc_legendre(static_cast<unsigned>(l), static_cast<unsigned>(std::abs(m)), cosine);
-                basis(static_cast<Eigen::Index>(i), column++) =
-                    legendre * (m < 0 ? std::sin(-m * azimuth) : std::cos(m * azimuth));
-            }
-        }
-    }
-    return basis;
-}
-
-// asked (B'B + penalty)^-1 B', the penalty in units of the basis's own mean square; not on the last column if `spared`.
+// asked (B'B + penalty)^-1 B', the penalty in units of the basis's own mean square.
 Eigen::MatrixXd ridgeWeights(const Eigen::MatrixXd& given, const Eigen::MatrixXd& asked, double penalty)
 {
     Eigen::MatrixXd normal = given.transpose() * given;
@@ -85,43 +72,33 @@ Eigen::MatrixXd gaussianWeights(const Smoothing& smoothing, const Directions& gi
     return kernel.ldlt().solve(gaussians(asked, given, width).transpose()).transpose();
 }
 
-double thinPlate(const glm::vec3& a, const glm::vec3& b)
-{
-    const double x = a.x - b.x, y = a.y - b.y, r2 = x * x + y * y;
-    return r2 > 0 ? 0.5 * r2 * std::log(r2) : 0.0;
-}
-
 Eigen::MatrixXd thinPlateWeights(double penalty, const Directions& given, const Directions& asked)
 {
-    const auto n = static_cast<Eigen::Index>(given.size()), m = static_cast<Eigen::Index>(asked.size());
-    Eigen::MatrixXd system = Eigen::MatrixXd::Zero(n + 3, n + 3), rows(m, n + 3);
-    for (Eigen::Index i = 0; i < n; ++i) {
-        for (Eigen::Index j = 0; j < n; ++j) {
-            system(i, j) = thinPlate(given[i], given[j]) + (i == j ? penalty : 0.0);
-        }
-        system.block<1, 3>(i, n) << 1, given[i].x, given[i].y;
-        system.block<3, 1>(n, i) = system.block<1, 3>(i, n).transpose();
+    std::vector<glm::vec2> nodes;
+    for (const glm::vec3& direction : given) {
+        nodes.push_back(lightPlanePoint(direction));
     }
-    for (Eigen::Index i = 0; i < m; ++i) {
-        for (Eigen::Index j = 0; j < n; ++j) {
-            rows(i, j) = thinPlate(asked[i], given[j]);
-        }
-        rows.block<1, 3>(i, n) << 1, asked[i].x, asked[i].y;
+    const Eigen::MatrixXd factors = splineFactors(nodes, penalty);
+    Eigen::MatrixXd weights(static_cast<Eigen::Index>(asked.size()), factors.cols());
+    for (size_t i = 0; i < asked.size(); ++i) {
+        weights.row(static_cast<Eigen::Index>(i)) = splineTerms(nodes, lightPlanePoint(asked[i])) * factors;
     }
-    const Eigen::MatrixXd inverse = system.colPivHouseholderQr().inverse();
-    return rows * inverse.leftCols(n);
+    return weights;
 }
 
 Eigen::MatrixXd weightsOf(RelightingBaseline baseline, const Smoothing& smoothing, const Directions& given,
                           const Directions& asked)
 {
+    const auto fitted = [&](const auto& terms) {
+        return ridgeWeights(rowsOf(given, terms), rowsOf(asked, terms), smoothing.penalty);
+    };
     switch (baseline) {
     case RelightingBaseline::polynomialTextureMap:
-        return ridgeWeights(polynomials(given), polynomials(asked), smoothing.penalty);
+        return fitted([](const glm::vec3& light) { return rtiWeights(RtiBasis::ptm, light); });
     case RelightingBaseline::hemisphericalHarmonics:
-        return ridgeWeights(harmonics(given, 2), harmonics(asked, 2), smoothing.penalty);
+        return fitted([](const glm::vec3& light) { return hemisphericalHarmonics(light, 2); });
     case RelightingBaseline::hemisphericalHarmonicsThird:
-        return ridgeWeights(harmonics(given, 3), harmonics(asked, 3), smoothing.penalty);
+        return fitted([](const glm::vec3& light) { return hemisphericalHarmonics(light, 3); });
     case RelightingBaseline::radialBasisFunctions:
         return gaussianWeights(smoothing, given, asked);
     case RelightingBaseline::thinPlateSpline:

@@ -1,13 +1,13 @@
 #include "evaluation/rendering/bake_benchmark.h"
 
 #include <array>
-#include <chrono>
 
 #include <nanoflann.hpp>
 
 #include "acquisition/brdf/bake.h"
 #include "assets/synth/hash_random.h"
 #include "engine/files/parallel_for.h"
+#include "engine/files/stopwatch.h"
 
 namespace nacre {
 
@@ -75,13 +75,6 @@ double queryAll(const BrdfSamples& samples, int threads)
         sum += s;
     }
     return sum;
-}
-
-template <class Work> double secondsOf(Work&& work)
-{
-    const auto start = std::chrono::steady_clock::now();
-    work();
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
 } // namespace

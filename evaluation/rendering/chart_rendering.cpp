@@ -1,7 +1,6 @@
 #include "evaluation/rendering/chart_rendering.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <functional>
 #include <memory>
@@ -10,6 +9,7 @@
 
 #include "engine/files/error.h"
 #include "engine/files/measures.h"
+#include "engine/files/stopwatch.h"
 #include "engine/gpu/renderer.h"
 #include "engine/scene/reference.h"
 #include "evaluation/rendering/bench_surfaces.h"
@@ -41,22 +41,7 @@ Box objectBox(const Surface& surface)
 // Wall clock around a call that returns once the device is done.
 template <class Call> float milliseconds(Call&& call)
 {
-    const auto start = std::chrono::steady_clock::now();
-    call();
-    return std::chrono::duration<float, std::milli>(std::chrono::steady_clock::now() - start).count();
-}
-
-// Code values of the display before they are rounded.
-Image unroundedCodes(const Image& radiance, const Display& display)
-{
-    const float gain = std::exp2(display.exposureStops);
-    Image codes(radiance.width, radiance.height, 3);
-    for (int y = 0; y < radiance.height; ++y) {
-        for (int x = 0; x < radiance.width; ++x) {
-            codes.setRgb(x, y, displayCode(gain * radiance.rgb(x, y), display.toneCurve));
-        }
-    }
-    return codes;
+    return static_cast<float>(1000 * secondsOf(call));
 }
 
 // One setting: a renderer of its own, so that settings can take turns, frame by frame.
@@ -139,7 +124,7 @@ public:
         scene_.lights = benchLights(static_cast<int>(lights), 0);
         const Frame radiance = renderReference(scene_);
         const Display display{automaticExposure(radiance), kToneSrgb};
-        const Image reference = unroundedCodes(radiance, display);
+        const Image reference = displayCodes(radiance, display);
         std::vector<RenderingRow> rows;
         for (const auto& contender : contenders_) {
             RenderingRow& row = rows.emplace_back();
@@ -162,9 +147,9 @@ private:
     {
         constexpr double kLongest = 15; // seconds
         constexpr int kFewest = 3;
-        const auto start = std::chrono::steady_clock::now();
+        const Stopwatch watch;
         for (int round = 0; round < choices_.repeats; ++round) {
-            const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+            const double seconds = watch.seconds();
             if ((round >= kFewest && seconds > kLongest) || (round > 0 && isStopped())) {
                 return;
             }

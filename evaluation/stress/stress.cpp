@@ -1,7 +1,6 @@
 #include "evaluation/stress/stress.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <optional>
 
@@ -10,6 +9,7 @@
 #include <glm/trigonometric.hpp>
 
 #include "engine/files/error.h"
+#include "engine/files/stopwatch.h"
 #include "evaluation/stress/stress_brdf.h"
 #include "evaluation/stress/stress_estimate.h"
 
@@ -56,11 +56,6 @@ struct TimedEstimate {
     double seconds = 0;
 };
 
-double secondsSince(std::chrono::steady_clock::time_point start)
-{
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
-
 // Prepared once for all methods; empty where the program refuses.
 struct Preparation {
     std::optional<StressPhotographs> photographs;
@@ -86,13 +81,13 @@ TimedEstimate timedEstimate(const PhotographedObject& object, const Preparation&
     if (!preparation.photographs) {
         return timed;
     }
-    const auto start = std::chrono::steady_clock::now();
+    const Stopwatch watch;
     try {
         timed.estimate = estimateNormals(object, *preparation.photographs, chosen);
     } catch (const Error& error) {
         timed.refusal = error.what();
     }
-    timed.seconds = secondsSince(start);
+    timed.seconds = watch.seconds();
     return timed;
 }
 
@@ -129,7 +124,7 @@ StressRow brdfRow(const TimedEstimate& timed, const Preparation& preparation, co
     row.error = 100;
     AcquireOptions chosen = options;
     chosen.interpolation.method = method;
-    const auto start = std::chrono::steady_clock::now();
+    const Stopwatch watch;
     try {
         if (timed.estimate) {
             const BrdfError error = brdfError(*preparation.photographs, timed.estimate->block, undegraded, chosen);
@@ -144,7 +139,7 @@ StressRow brdfRow(const TimedEstimate& timed, const Preparation& preparation, co
         row.said = Said::warning;
         row.warnings = "coverage: most of what is asked was not seen";
     }
-    row.seconds = secondsSince(start);
+    row.seconds = watch.seconds();
     return row;
 }
 

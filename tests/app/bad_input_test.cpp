@@ -207,7 +207,7 @@ class OutputTest : public BadInputTest {
 protected:
     OutputTest()
     {
-        EXPECT_EQ(runNacre({"synth", path("capture"), "--size", "48", "--sphere-size", "64", "--lights", "6"}).exitCode,
+        EXPECT_EQ(runNacre({"synth", path("capture"), "--side", "48", "--sphere-size", "64", "--lights", "6"}).exitCode,
                   0);
     }
 
@@ -288,7 +288,7 @@ TEST_F(OutputTest, AFullDiskLeavesNothingBehind)
                       {output == std::string("new.nacre") ? "normals.exr" : output, "cannot be written"});
         expectNothingWritten();
     }
-    EXPECT_EQ(runNacre({"synth", path("new"), "--size", "48"}, full).exitCode, 3);
+    EXPECT_EQ(runNacre({"synth", path("new"), "--side", "48"}, full).exitCode, 3);
     expectNothingWritten();
 }
 

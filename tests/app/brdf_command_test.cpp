@@ -110,7 +110,7 @@ TEST_F(BrdfCommandTest, ReadsTheDatabases)
 TEST_F(BrdfCommandTest, SynthAndRenderTakeFiles)
 {
     report({kGlossy, "--export", path("a.binary"), "--export", path("a.exr")});
-    EXPECT_EQ(runNacre({"synth", path("c"), "--material", "merl:" + path("a.binary"), "--size", "32", "--lights", "3",
+    EXPECT_EQ(runNacre({"synth", path("c"), "--material", "merl:" + path("a.binary"), "--side", "32", "--lights", "3",
                         "--sphere-size", "64", "--quiet"})
                   .exitCode,
               0);

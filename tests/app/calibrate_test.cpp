@@ -18,7 +18,7 @@ protected:
     static void SetUpTestSuite()
     {
         folder_ = new TempFolder;
-        const ProgramRun run = runNacre({"synth", path("ball"), "--shape", "sphere", "--size", "48", "--sphere-size",
+        const ProgramRun run = runNacre({"synth", path("ball"), "--shape", "sphere", "--side", "48", "--sphere-size",
                                          "128", "--lights", "12", "--noise", "0"});
         ASSERT_EQ(run.exitCode, 0) << run.err;
     }

@@ -15,7 +15,7 @@ TEST(CapturedPhotographs, VerdictsOnAPictureAreThoseOfItsPixels)
 {
     const TempFolder folder;
     const std::string capture = (folder / "capture").string(), surface = (folder / "s.nacre").string();
-    ASSERT_EQ(runNacre({"synth", capture, "--lights", "8", "--size", "48", "--give-lights"}).exitCode, 0);
+    ASSERT_EQ(runNacre({"synth", capture, "--lights", "8", "--side", "48", "--give-lights"}).exitCode, 0);
     ASSERT_EQ(runNacre({"acquire", capture, "-o", surface, "--normals", "consensus"}).exitCode, 0);
     const Photographs photographs = photographsOf(capture, surface);
     std::atomic<bool> isWhole = false; // told from several threads

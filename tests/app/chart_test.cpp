@@ -24,7 +24,7 @@ TEST(ChartCommand, WritesTablesPicturesAndOneReport)
     std::vector<std::string> arguments = {"chart",     makeSmallCapture(folder),
                                           "-o",        output,
                                           "--methods", "least-squares,consensus",
-                                          "--lights",  "all,6",
+                                          "--lights-given",  "all,6",
                                           "--k",       "25",
                                           "--parts",   "normals,brdf"};
     const ProgramRun run = runNacre(arguments);
@@ -77,7 +77,7 @@ TEST(ChartCommand, APhotographThatCannotBeReadCostsNothingThatIsFinished)
     fs::copy(good, bad, fs::copy_options::recursive);
     cutInHalf(fs::path(bad) / "object_05.png");
     const ProgramRun run = runNacre({"chart", bad, good, "-o", (folder / "charts").string(), "--parts", "normals,brdf",
-                                     "--methods", "least-squares", "--lights", "all", "--k", "25"});
+                                     "--methods", "least-squares", "--lights-given", "all", "--k", "25"});
     EXPECT_EQ(run.exitCode, 3);
     EXPECT_NE(run.err.find("object_05.png"), std::string::npos) << run.err;
     EXPECT_EQ(linesOf(readTextFile(folder / "charts" / "normals.csv")), 1u + 1);
@@ -119,14 +119,14 @@ TEST(ChartCommand, RefusesWhatItDoesNotKnow)
     };
     expectRefusal({}, 3, "nothing");
     const std::string few = (folder / "few").string();
-    ASSERT_EQ(runNacre({"synth", few, "--shape", "sphere", "--size", "16", "--sphere-size", "48", "--lights", "3",
+    ASSERT_EQ(runNacre({"synth", few, "--shape", "sphere", "--side", "16", "--sphere-size", "48", "--lights", "3",
                         "--give-lights"})
                   .exitCode,
               0);
     EXPECT_EQ(runNacre({"chart", few, "-o", output}).exitCode, 3) << "one of three is held out, two are too few";
     expectRefusal({"--methods", "magic"}, 2, "magic");
     expectRefusal({"--parts", "magic"}, 2, "magic");
-    expectRefusal({"--lights", "2"}, 2, "--lights 2");
+    expectRefusal({"--lights-given", "2"}, 2, "--lights-given 2");
     expectRefusal({"--k", "0"}, 2, "--k 0");
     expectRefusal({"--k", "513"}, 2, "--k 513");
     expectRefusal({"--frame-lights", "0"}, 2, "--frame-lights 0");

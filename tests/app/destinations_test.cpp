@@ -17,7 +17,7 @@ protected:
     static void SetUpTestSuite()
     {
         folder_ = new TempFolder;
-        const ProgramRun run = runNacre({"synth", path("c"), "--shape", "sphere", "--size", "48", "--sphere-size", "64",
+        const ProgramRun run = runNacre({"synth", path("c"), "--shape", "sphere", "--side", "48", "--sphere-size", "64",
                                          "--lights", "9", "--give-lights"});
         ASSERT_EQ(run.exitCode, 0) << run.err;
     }
@@ -92,7 +92,7 @@ TEST_F(Destinations, TruthCanBeTheSphereInTheMask)
 {
     const ProgramRun run = normals({"--force", "--truth", "sphere"});
     EXPECT_NE(run.out.find("degrees against sphere"), std::string::npos) << run.out << run.err;
-    EXPECT_NE(run.out.find("residual "), std::string::npos);
+    EXPECT_NE(run.out.find("misfit "), std::string::npos);
     fs::remove(path("n.exr"));
 }
 

@@ -63,7 +63,7 @@ protected:
 
     void synth(const std::string& name, std::vector<std::string> more)
     {
-        std::vector<std::string> arguments = {"synth", path(name), "--size", "48", "--sphere-size", "64", "--quiet"};
+        std::vector<std::string> arguments = {"synth", path(name), "--side", "48", "--sphere-size", "64", "--quiet"};
         arguments.insert(arguments.end(), more.begin(), more.end());
         run(arguments);
     }

@@ -98,8 +98,8 @@ TEST_F(Export, SameBytesForAnyNumberOfThreads)
 // A 16-bit step is 2 / 65535 a component: 0.003 degrees with all three off by half of one.
 TEST_F(Export, NormalsComeBackThroughTarget)
 {
-    ASSERT_EQ(run({"--normals", path("n.png")}).exitCode, 0);
-    ASSERT_EQ(run({"--normals", path("n.exr"), "--quiet"}).exitCode, 0);
+    ASSERT_EQ(run({"--write-normals", path("n.png")}).exitCode, 0);
+    ASSERT_EQ(run({"--write-normals", path("n.exr"), "--quiet"}).exitCode, 0);
     EXPECT_EQ(readImageHeader(path("n.png")).pixelType, "uint16");
     for (const auto& [file, tolerance] : {std::pair("n.png", 0.003), std::pair("n.exr", 1e-4)}) {
         const std::string target = path(std::string(file) + ".nacre");
@@ -151,14 +151,14 @@ TEST_F(Export, RefusesWithTheRightCode)
 {
     expectOneLine(run({}), Error::kUsage, {"nothing is asked for"});
     expectOneLine(run({"--ptm", path("a.png")}), Error::kUsage, {"--ptm", "NAME.ptm"});
-    expectOneLine(run({"--normals", path("a.jpg")}), Error::kUsage, {"--normals", ".png or NAME.exr"});
+    expectOneLine(run({"--write-normals", path("a.jpg")}), Error::kUsage, {"--write-normals", ".png or NAME.exr"});
     expectOneLine(run({"--ptm", path("a.ptm"), "--ptm-format", "lum"}), Error::kUsage, {"lum", "lrgb or rgb"});
     expectOneLine(run({"--rti-web", path("w"), "--basis", "rbf"}), Error::kUsage, {"rbf"});
     expectOneLine(run({"--ptm", path("a.ptm"), "--lights", "6"}), Error::kUsage, {"--lights 6"});
     expectOneLine(run({"--ptm", path("a.ptm"), "--exposure", "inf"}), Error::kUsage, {"--exposure"});
-    expectOneLine(run({"--normals", path("a.exr"), "--albedo", path("a.exr")}), Error::kUsage, {"twice"});
+    expectOneLine(run({"--write-normals", path("a.exr"), "--albedo", path("a.exr")}), Error::kUsage, {"twice"});
     expectOneLine(run({"--ptm", path("a.ptm"), "--size", "24"}), Error::kUsage, {"--size 24"});
-    expectOneLine(run({"--normals", path("a.nacre/normals.exr")}), Error::kData, {"exists already"});
+    expectOneLine(run({"--write-normals", path("a.nacre/normals.exr")}), Error::kData, {"exists already"});
     expectOneLine(run({"--ptm", path("none/a.ptm")}), Error::kData, {"folder does not exist"});
     expectOneLine(runNacre({"export", path("no.nacre"), "--ptm", path("a.ptm")}), Error::kData, {"no.nacre"});
     expectFolderHolds({});
@@ -179,7 +179,7 @@ TEST_F(Export, ReplacesWithForceAloneAndNothingOfOthers)
 TEST_F(Export, TargetsHaveNormalsAlone)
 {
     ASSERT_EQ(runNacre({"target", "make:head", "--size", "40x40", "-o", path("t.nacre")}).exitCode, 0);
-    EXPECT_EQ(runNacre({"export", path("t.nacre"), "--normals", path("t.png")}).exitCode, 0);
+    EXPECT_EQ(runNacre({"export", path("t.nacre"), "--write-normals", path("t.png")}).exitCode, 0);
     expectOneLine(runNacre({"export", path("t.nacre"), "--ptm", path("t.ptm")}), Error::kData,
                   {"t.nacre", "without a material"});
     EXPECT_EQ(runNacre({"export", "--help"}).out.find("nacre export horse.nacre") == std::string::npos, false);

@@ -76,7 +76,7 @@ TEST_F(RenderTest, PngIsExposedAndSaysItsDevice)
     const ProgramRun run = render("new.png", {"--light", "0,0,1", "--path", "direct"});
     ASSERT_EQ(run.exitCode, 0) << run.err;
     const Frame frame = expected(scene_.surface, {{{0, 0, 1}, {1, 1, 1}}});
-    const Image picture = displayImage(frame, automaticExposure(frame));
+    const Image picture = displayedImage(frame, {.exposureStops = automaticExposure(frame)});
     const Image actual = loadImage(path("new.png"));
     ASSERT_EQ(actual.values.size(), picture.values.size());
     for (size_t i = 0; i < picture.values.size(); ++i) {

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "engine/files/code_difference.h"
+#include "engine/files/measures.h"
 #include "engine/files/whole_file.h"
 #include "engine/surface/surface.h"
 #include "shared/shading.h"
@@ -18,7 +18,7 @@ protected:
     static void SetUpTestSuite()
     {
         folder_ = new TempFolder;
-        const ProgramRun made = runNacre({"synth", path("c"), "--size", "48", "--lights", "10", "--give-lights",
+        const ProgramRun made = runNacre({"synth", path("c"), "--side", "48", "--lights", "10", "--give-lights",
                                           "--material", "ggx:diffuse=0.5,0.2,0.1;specular=0.05;alpha=0.3"});
         ASSERT_EQ(made.exitCode, 0) << made.err;
         for (const char* choice : {"difference", "none"}) {
@@ -51,9 +51,9 @@ TEST_F(ResidualCommand, OnIsTheDefaultOffTheBrdfAlone)
     ASSERT_EQ(automatic.exitCode, 0) << automatic.err;
     EXPECT_EQ(automatic.err, "");
     EXPECT_NE(automatic.out.find("components, on"), std::string::npos) << automatic.out;
-    ASSERT_EQ(render("difference.nacre", "on.png", {"--exposure", "0", "--residual", "on"}).exitCode, 0);
-    ASSERT_EQ(render("difference.nacre", "off.png", {"--exposure", "0", "--residual", "off"}).exitCode, 0);
-    ASSERT_EQ(render("none.nacre", "none.png", {"--exposure", "0", "--residual", "off"}).exitCode, 0);
+    ASSERT_EQ(render("difference.nacre", "on.png", {"--exposure", "0", "--layer", "on"}).exitCode, 0);
+    ASSERT_EQ(render("difference.nacre", "off.png", {"--exposure", "0", "--layer", "off"}).exitCode, 0);
+    ASSERT_EQ(render("none.nacre", "none.png", {"--exposure", "0", "--layer", "off"}).exitCode, 0);
     EXPECT_EQ(codes("auto.png"), codes("on.png"));
     EXPECT_NE(codes("on.png"), codes("off.png"));
     // Albedo factors in half floats with a layer's pixels, in the same format without: a code of rounding.
@@ -64,10 +64,10 @@ TEST_F(ResidualCommand, OnIsTheDefaultOffTheBrdfAlone)
 TEST_F(ResidualCommand, AloneIsTheSumAboutMiddleGrey)
 {
     ASSERT_EQ(render("difference.nacre", "on.exr").exitCode, 0);
-    ASSERT_EQ(render("difference.nacre", "off.exr", {"--residual", "off"}).exitCode, 0);
-    ASSERT_EQ(render("difference.nacre", "alone.png", {"--residual", "alone", "--path", "direct", "--exposure", "0"})
-                  .exitCode,
-              0);
+    ASSERT_EQ(render("difference.nacre", "off.exr", {"--layer", "off"}).exitCode, 0);
+    ASSERT_EQ(
+        render("difference.nacre", "alone.png", {"--layer", "alone", "--path", "direct", "--exposure", "0"}).exitCode,
+        0);
     const float trust = loadSurface(path("difference.nacre")).residual.trust;
     const std::vector<float> on = codes("on.exr"), off = codes("off.exr"), alone = codes("alone.png");
     size_t tested = 0, wrong = 0;
@@ -85,19 +85,19 @@ TEST_F(ResidualCommand, AloneIsTheSumAboutMiddleGrey)
 TEST_F(ResidualCommand, AStateFileAndTheWindowSayTheSame)
 {
     writeText(*folder_ / "scene.json", R"({"format": "nacre scene", "version": 1, "surface": "difference.nacre",
-        "residual": "off", "exposure": 0})");
+        "layer": "off", "exposure": 0})");
     ASSERT_EQ(runNacre({"render", "--state", path("scene.json"), "-o", path("state.png")}).exitCode, 0);
-    ASSERT_EQ(render("difference.nacre", "off.png", {"--exposure", "0", "--residual", "off"}).exitCode, 0);
+    ASSERT_EQ(render("difference.nacre", "off.png", {"--exposure", "0", "--layer", "off"}).exitCode, 0);
     EXPECT_EQ(codes("state.png"), codes("off.png"));
     for (const char* use : {"on", "off", "alone"}) {
         const std::string picture = std::string("view-") + use + ".png";
-        const ProgramRun run = runNacre({"view", path("difference.nacre"), "--residual", use, "--exposure", "0",
-                                         "--headless", "-o", path(picture)});
+        const ProgramRun run = runNacre(
+            {"view", path("difference.nacre"), "--layer", use, "--exposure", "0", "--headless", "-o", path(picture)});
         ASSERT_EQ(run.exitCode, 0) << run.err;
-        ASSERT_EQ(render("difference.nacre", "same.png", {"--exposure", "0", "--residual", use}).exitCode, 0);
+        ASSERT_EQ(render("difference.nacre", "same.png", {"--exposure", "0", "--layer", use}).exitCode, 0);
         EXPECT_EQ(codes(picture), codes("same.png")) << use;
     }
-    EXPECT_NE(readTextFile(*folder_ / "view-off.json").find(R"("residual": "off")"), std::string::npos);
+    EXPECT_NE(readTextFile(*folder_ / "view-off.json").find(R"("layer": "off")"), std::string::npos);
 }
 
 TEST_F(ResidualCommand, SaysWhereItIsLeftOutOrFadesOut)
@@ -111,7 +111,7 @@ TEST_F(ResidualCommand, SaysWhereItIsLeftOutOrFadesOut)
     EXPECT_NE(said({"--onto", path("none.nacre")}).find("residual layer is left out"), std::string::npos);
     EXPECT_NE(said({"--light", "1,0,-3", "--light", "captured:1"}).find("fades out under 1 of 2 lights"),
               std::string::npos);
-    EXPECT_EQ(said({"--view", "0.3,0,1", "--residual", "off"}).find("residual"), std::string::npos);
+    EXPECT_EQ(said({"--view", "0.3,0,1", "--layer", "off"}).find("residual"), std::string::npos);
     EXPECT_EQ(said({"--view", "0.3,0,1", "--quiet"}), "");
 }
 
@@ -121,13 +121,13 @@ TEST_F(ResidualCommand, WhatCannotBeIsAUsageError)
         EXPECT_EQ(run.exitCode, 2);
         EXPECT_NE(run.err.find(fragment), std::string::npos) << run.err;
     };
-    refused(render("difference.nacre", "no.png", {"--residual", "half"}), "--residual half is not known; on, off");
-    refused(render("none.nacre", "no.png", {"--residual", "alone"}), "has no residual layer");
-    refused(render("difference.nacre", "no.png", {"--residual", "alone", "--onto", path("none.nacre")}),
+    refused(render("difference.nacre", "no.png", {"--layer", "half"}), "--layer half is not known; on, off");
+    refused(render("none.nacre", "no.png", {"--layer", "alone"}), "has no residual layer");
+    refused(render("difference.nacre", "no.png", {"--layer", "alone", "--onto", path("none.nacre")}),
             "has no residual layer");
-    refused(render("difference.nacre", "no.png", {"--residual", "alone", "--view", "0.3,0,1"}), "from the front");
-    refused(render("difference.nacre", "no.exr", {"--residual", "alone"}), "is radiance");
-    refused(runNacre({"view", path("none.nacre"), "--residual", "alone", "--headless", "-o", path("no.png")}),
+    refused(render("difference.nacre", "no.png", {"--layer", "alone", "--view", "0.3,0,1"}), "from the front");
+    refused(render("difference.nacre", "no.exr", {"--layer", "alone"}), "is radiance");
+    refused(runNacre({"view", path("none.nacre"), "--layer", "alone", "--headless", "-o", path("no.png")}),
             "has no residual layer");
     EXPECT_FALSE(std::filesystem::exists(path("no.png")));
 }

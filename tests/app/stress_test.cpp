@@ -10,7 +10,7 @@ namespace {
 
 ProgramRun runSmall(const std::string& output, std::vector<std::string> more = {})
 {
-    std::vector<std::string> arguments = {"stress", "synthetic", "-o",       output,      "--size",
+    std::vector<std::string> arguments = {"stress", "synthetic", "-o",       output,      "--side",
                                           "20",     "--sweep",   "coplanar", "--methods", "least-squares,consensus"};
     arguments.insert(arguments.end(), more.begin(), more.end());
     return runNacre(arguments);
@@ -48,7 +48,7 @@ TEST(StressCommand, RefusesWhatItDoesNotKnow)
     expectUsage({"--sweep", "magic"}, "magic");
     expectUsage({"--methods", "magic"}, "magic");
     expectUsage({"--material", "magic:1"}, "magic");
-    expectUsage({"--size", "4"}, "--size 4");
+    expectUsage({"--side", "4"}, "--side 4");
     const ProgramRun missing = runNacre({"stress", (folder / "nothing").string(), "-o", output});
     EXPECT_EQ(missing.exitCode, 3);
     EXPECT_NE(missing.err.find("nothing"), std::string::npos) << missing.err;
@@ -58,7 +58,7 @@ TEST(LightsGiven, AreCountedNamedAndRefused)
 {
     const TempFolder folder;
     const std::string capture = (folder / "c").string();
-    const ProgramRun made = runNacre({"synth", capture, "--shape", "sphere", "--size", "24", "--sphere-size", "48",
+    const ProgramRun made = runNacre({"synth", capture, "--shape", "sphere", "--side", "24", "--sphere-size", "48",
                                       "--lights", "14", "--give-lights"});
     ASSERT_EQ(made.exitCode, 0) << made.err;
     const std::string summary = (folder / "n.json").string();

@@ -153,7 +153,7 @@ TEST(SynthScene, RefusesOptionsThatMakeNoCapture)
         change(options);
         expectError([&] { makeSynthScene(options); }, {about}, Error::kUsage);
     };
-    refused([](SynthOptions& o) { o.width = 2; }, "--size");
+    refused([](SynthOptions& o) { o.width = 2; }, "--side");
     refused([](SynthOptions& o) { o.lights = 0; }, "--lights");
     refused([](SynthOptions& o) { o.capDegrees = 90; }, "--cap-degrees");
     refused([](SynthOptions& o) { o.noise = -1; }, "--noise");

@@ -5,7 +5,6 @@
 #include <glm/geometric.hpp>
 
 #include "engine/brdf/brdf_tabulation.h"
-#include "engine/files/code_difference.h"
 #include "engine/files/error.h"
 #include "engine/files/measures.h"
 #include "engine/gpu/renderer.h"

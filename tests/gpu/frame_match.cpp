@@ -62,7 +62,8 @@ testing::AssertionResult framesMatch(const Frame& actual, const Frame& expected)
         worst = std::max(worst, difference / bound);
     }
     const float stops = automaticExposure(expected);
-    const float picture = largestDifference(displayImage(actual, stops), displayImage(expected, stops));
+    const float picture = largestDifference(displayedImage(actual, {.exposureStops = stops}),
+                                            displayedImage(expected, {.exposureStops = stops}));
     const std::string figures =
         fmt::format("{} of {} values beyond the bound, the worst at {:.3f} of it; picture {:.2f}/255", beyond,
                     actual.values.size(), worst, picture * 255);

@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "engine/files/structural_similarity.h"
+#include "engine/files/measures.h"
 #include "engine/files/whole_file.h"
 
 namespace nacre::test {

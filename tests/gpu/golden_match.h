@@ -4,8 +4,8 @@
 
 #include <gtest/gtest.h>
 
-#include "engine/files/code_difference.h"
 #include "engine/files/image.h"
+#include "engine/files/measures.h"
 
 namespace nacre::test {
 

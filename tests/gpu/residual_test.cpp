@@ -1,7 +1,7 @@
 // A residual layer on the device: the same as its twin on the CPU in both paths, in bands, off and alone.
 #include <glm/geometric.hpp>
 
-#include "engine/files/code_difference.h"
+#include "engine/files/measures.h"
 #include "engine/gpu/renderer.h"
 #include "engine/scene/reference.h"
 #include "tests/gpu/frame_match.h"

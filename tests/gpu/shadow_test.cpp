@@ -68,7 +68,7 @@ TEST_F(ShadowTest, IsTheTwinsInBands)
     const Frame expected = renderReference(scene);
     EXPECT_TRUE(framesMatch(renderer.render(scene), expected));
     renderer.setDisplay({.exposureStops = 0});
-    const Image picture = renderer.picture(), wanted = displayImage(expected, 0);
+    const Image picture = renderer.picture(), wanted = displayedImage(expected, {.exposureStops = 0});
     size_t differing = 0;
     for (size_t i = 0; i < picture.values.size(); ++i) {
         differing += std::abs(picture.values[i] - wanted.values[i]) > 1.5f / 255;

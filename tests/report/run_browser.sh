@@ -45,9 +45,9 @@ says() { grep -Eq -- "$1" <<<"$said"; }
 console_is_silent() { [ ! -s "$work/console" ]; }
 not() { ! "$@"; }
 
-"$nacre" synth "$work/capture" --quiet --shape sphere --size 48 --sphere-size 48 --lights 14 --give-lights
+"$nacre" synth "$work/capture" --quiet --shape sphere --side 48 --sphere-size 48 --lights 14 --give-lights
 "$nacre" acquire "$work/capture" -o "$work/s.nacre" --normals consensus --tolerance 40dB --report "$work/acquired" --quiet
-"$nacre" chart "$work/capture" -o "$work/charts" --methods least-squares,consensus --lights all --k 25 --quiet \
+"$nacre" chart "$work/capture" -o "$work/charts" --methods least-squares,consensus --lights-given all --k 25 --quiet \
     --parts normals,brdf
 
 said=$(open_pages telephone:390:acquired/report.html desk:1280:acquired/report.html charts:390:charts/report.html)

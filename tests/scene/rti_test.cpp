@@ -252,7 +252,7 @@ TEST(Rti, BadWebFoldersAreRefused)
     refused("\"ptm\"", "\"rbf\"", "rbf");
     refused("\"nplanes\": 18", "\"nplanes\": 27", "27 planes");
     refused("\"width\": 24", "\"width\": 23", "plane_0.jpg");
-    refused("\"scale\"", "\"scales\"", "not understood");
+    refused("\"scale\"", "\"scales\"", "materials[0] lacks \"scale\"");
     writeText(folder / "info.json", good);
     std::filesystem::remove(folder / "plane_3.jpg");
     expectError([&] { loadRtiWeb(folder.path()); }, {"plane_3.jpg", "does not exist"});

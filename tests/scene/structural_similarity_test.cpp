@@ -5,8 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "assets/synth/hash_random.h"
-#include "engine/files/code_difference.h"
-#include "engine/files/structural_similarity.h"
+#include "engine/files/measures.h"
 
 namespace nacre {
 namespace {

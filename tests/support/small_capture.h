@@ -12,7 +12,7 @@ namespace nacre {
 inline std::string makeSmallCapture(const TempFolder& folder)
 {
     const std::string capture = (folder / "c").string();
-    const ProgramRun made = runNacre({"synth", capture, "--shape", "sphere", "--size", "24", "--sphere-size", "48",
+    const ProgramRun made = runNacre({"synth", capture, "--shape", "sphere", "--side", "24", "--sphere-size", "48",
                                       "--lights", "14", "--give-lights"});
     EXPECT_EQ(made.exitCode, 0) << made.err;
     return capture;

@@ -123,7 +123,7 @@ screenshot; layer=$shot
 check "a state says nothing of the residual layer where it is on" lacks "$layer" residual
 for use in off alone; do
     press d; screenshot
-    check "D turns the residual layer $use" holds "$shot" "\"residual\": \"$use\""
+    check "D turns the residual layer $use" holds "$shot" "\"layer\": \"$use\""
     check "which is another picture" differs "$layer" "$shot"
     check_later "and is the same without a window" reproduces "$shot"
 done

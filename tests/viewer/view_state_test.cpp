@@ -75,7 +75,7 @@ TEST(ViewState, EveryUseOfTheResidualHasAName)
     EXPECT_EQ(sceneFileOf({}).residual, "") << "the default is not written";
     SceneFile unknown;
     unknown.residual = "half";
-    expectError([&] { viewStateOf(unknown); }, {"--residual half is not known", "on, off or alone"}, Error::kUsage);
+    expectError([&] { viewStateOf(unknown); }, {"--layer half is not known", "on, off or alone"}, Error::kUsage);
 }
 
 TEST(ViewState, APhotographIsShownByItsLightAlone)

@@ -1,10 +1,10 @@
-// The residual of Lambert's law, on made and on real photographs.
+// The misfit of Lambert's law, on made and on real photographs.
 #include <fstream>
 
 #include <gtest/gtest.h>
 
 #include "acquisition/chain/acquire.h"
-#include "acquisition/checks/lambertian_residual.h"
+#include "acquisition/checks/lambertian_misfit.h"
 #include "assets/synth/synth_capture.h"
 #include "tests/support/data_folder.h"
 #include "tests/support/temp_folder.h"
@@ -12,14 +12,14 @@
 namespace nacre {
 namespace {
 
-double residualOf(const Capture& capture)
+double misfitOf(const Capture& capture)
 {
     AcquireOptions options;
     options.normals.method = NormalMethod::leastSquares;
-    return estimateCaptureNormals(capture, options, [](const std::string&, double) {}).report.lambertianResidual;
+    return estimateCaptureNormals(capture, options, [](const std::string&, double) {}).report.lambertianMisfit;
 }
 
-double residualOfSphere(const std::string& material)
+double misfitOfSphere(const std::string& material)
 {
     const TempFolder folder;
     SynthOptions options;
@@ -30,13 +30,13 @@ double residualOfSphere(const std::string& material)
     options.giveLights = true;
     options.sphereSize = 48; // not looked at
     writeSynthCapture(folder / "c", makeSynthScene(options), false);
-    return residualOf(loadCapture(folder / "c"));
+    return misfitOf(loadCapture(folder / "c"));
 }
 
-TEST(LambertianResidual, IsNothingForLambertAndMuchForGloss)
+TEST(LambertianMisfit, IsNothingForLambertAndMuchForGloss)
 {
-    EXPECT_LT(residualOfSphere("lambert:0.5,0.4,0.3"), 0.001); // 16-bit codes
-    EXPECT_GT(residualOfSphere("ggx:diffuse=0.5,0.3,0.2;specular=0.04;alpha=0.2"), 0.02);
+    EXPECT_LT(misfitOfSphere("lambert:0.5,0.4,0.3"), 0.001); // 16-bit codes
+    EXPECT_GT(misfitOfSphere("ggx:diffuse=0.5,0.3,0.2;specular=0.04;alpha=0.2"), 0.02);
 }
 
 // Directions are given, intensities are not: they come from the object's photographs alone. The published toolbox's
@@ -54,7 +54,7 @@ TEST(PsboxDataSlow, IntensitiesComeFromThePhotographsAlone)
     }
     json << "]}";
     json.close();
-    EXPECT_LT(residualOf(loadCapture(folder.path())), 0.04);
+    EXPECT_LT(misfitOf(loadCapture(folder.path())), 0.04);
 }
 
 } // namespace

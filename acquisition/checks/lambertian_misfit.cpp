@@ -1,4 +1,4 @@
-#include "acquisition/checks/lambertian_residual.h"
+#include "acquisition/checks/lambertian_misfit.h"
 
 #include <cmath>
 #include <limits>
@@ -31,7 +31,7 @@ float objectLevel(const Intensities& intensities)
 
 } // namespace
 
-double lambertianResidual(const Observations& sample, const std::vector<Light>& lights)
+double lambertianMisfit(const Observations& sample, const std::vector<Light>& lights)
 {
     const Intensities intensities = intensitiesOf(sample, lights);
     const LambertianSolver solver(lights);
@@ -53,8 +53,8 @@ double lambertianResidual(const Observations& sample, const std::vector<Light>& 
         }
         solver.predict(pixel, predicted);
         for (size_t i = 0; i < lights.size(); ++i) {
-            const double residual = observed[i] - predicted[i];
-            squares += lit[i] * residual * residual;
+            const double miss = observed[i] - predicted[i];
+            squares += lit[i] * miss * miss;
             sum += lit[i] * observed[i];
             count += lit[i];
         }

@@ -10,6 +10,6 @@ namespace nacre {
 // of their mean, I = grey radiance over irradiance, rho n by least squares of each pixel's lit observations.
 // Reflectance, cast shadows and lights that are not as they are said to be all raise it. Lit is told from the
 // photographs alone, so that no fit chooses what it is judged by. NaN where nothing is lit.
-double lambertianResidual(const Observations& sample, const std::vector<Light>& lights);
+double lambertianMisfit(const Observations& sample, const std::vector<Light>& lights);
 
 } // namespace nacre
