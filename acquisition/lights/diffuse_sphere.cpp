@@ -9,6 +9,7 @@
 #include <glm/matrix.hpp>
 #include <glm/trigonometric.hpp>
 
+#include "acquisition/capture/exposure_merge.h"
 #include "engine/files/error.h"
 #include "engine/files/measures.h"
 
@@ -16,8 +17,8 @@ namespace nacre {
 
 namespace {
 
-constexpr size_t kFewestPixels = 20;
-constexpr float kOutlierSigmas = 3.0f;
+constexpr size_t kFewestSpherePixels = 20;
+constexpr float kSphereOutlierSigmas = 3.0f;
 constexpr int kTrimPasses = 3;
 // Attached shadow begins this far behind the terminator, so that neither a wrong direction nor the light's size
 // matters.
@@ -30,11 +31,6 @@ struct SpherePixel {
     glm::vec3 radiance;
     float nDotL;
 };
-
-float grey(const glm::vec3& v)
-{
-    return (v.x + v.y + v.z) / 3;
-}
 
 std::vector<SpherePixel> pixelsInside(const Image& image, const Circle& outline, const glm::vec3& light,
                                       std::span<const uint8_t> saturated)
@@ -56,7 +52,8 @@ bool obeysRules(const SpherePixel& p, const glm::vec3& light, float darkLevel, c
 {
     const glm::vec3 mirrored = 2 * p.nDotL * p.normal - light;
     const bool awayFromHighlight = mirrored.z < std::cos(glm::radians(rules.highlightDegrees));
-    return p.nDotL >= rules.nDotLMin && p.nDotL <= rules.nDotLMax && awayFromHighlight && grey(p.radiance) >= darkLevel;
+    return p.nDotL >= rules.nDotLMin && p.nDotL <= rules.nDotLMax && awayFromHighlight &&
+           channelMean(p.radiance) >= darkLevel;
 }
 
 // Drops pixels whose ratio I / n.l is far from the others': stains, seams, a supporting stand.
@@ -64,15 +61,16 @@ void dropOutliers(std::vector<SpherePixel>& pixels)
 {
     std::vector<float> ratios, deviations;
     for (const SpherePixel& p : pixels) {
-        ratios.push_back(grey(p.radiance) / p.nDotL);
+        ratios.push_back(channelMean(p.radiance) / p.nDotL);
     }
     const float median = quantile(ratios, 0.5);
     for (const SpherePixel& p : pixels) {
-        deviations.push_back(std::abs(grey(p.radiance) / p.nDotL - median));
+        deviations.push_back(std::abs(channelMean(p.radiance) / p.nDotL - median));
     }
     const float sigma = 1.4826f * quantile(deviations, 0.5);
     std::erase_if(pixels, [&](const SpherePixel& p) {
-        return std::abs(grey(p.radiance) / p.nDotL - median) > kOutlierSigmas * std::max(sigma, 1e-6f * median);
+        return std::abs(channelMean(p.radiance) / p.nDotL - median) >
+               kSphereOutlierSigmas * std::max(sigma, 1e-6f * median);
     });
 }
 
@@ -94,7 +92,7 @@ ShadingSums sumsOf(const std::vector<SpherePixel>& pixels)
     ShadingSums sums;
     for (const SpherePixel& p : pixels) {
         const glm::dvec3 n(p.normal);
-        const double value = grey(p.radiance);
+        const double value = channelMean(p.radiance);
         sums.normalProducts += glm::outerProduct(n, n);
         sums.normals += n;
         sums.radianceNormals += value * n;
@@ -127,7 +125,7 @@ void readShadow(const std::vector<SpherePixel>& all, DiffuseSphereReading& readi
     std::vector<float> values;
     for (const SpherePixel& p : all) {
         if (p.nDotL < kShadowNDotL && p.normal.z > kLeastFacing) {
-            values.push_back(grey(p.radiance));
+            values.push_back(channelMean(p.radiance));
         }
     }
     reading.shadowPixels = values.size();
@@ -143,7 +141,7 @@ double offsetOf(std::span<const DiffuseSphereReading> readings)
         sum += static_cast<double>(reading.shadowPixels) * reading.shadowLevel;
         sums.push_back(reading.sums);
     }
-    return pixels >= kFewestPixels ? sum / pixels : commonOffset(sums);
+    return pixels >= kFewestSpherePixels ? sum / pixels : commonOffset(sums);
 }
 
 // Drops what the fit does not explain, and fits again.
@@ -159,12 +157,12 @@ void fitShading(std::vector<SpherePixel> pixels, DiffuseSphereReading& reading)
             return;
         }
         const auto residual = [&](const SpherePixel& p) {
-            return std::abs(grey(p.radiance) - static_cast<float>(glm::dot(g, glm::dvec3(p.normal)) + offset));
+            return std::abs(channelMean(p.radiance) - static_cast<float>(glm::dot(g, glm::dvec3(p.normal)) + offset));
         };
         std::vector<float> residuals;
         std::transform(pixels.begin(), pixels.end(), std::back_inserter(residuals), residual);
-        const float bound =
-            std::max(kOutlierSigmas * 1.4826f * quantile(residuals, 0.5), 1e-6f * static_cast<float>(glm::length(g)));
+        const float bound = std::max(kSphereOutlierSigmas * 1.4826f * quantile(residuals, 0.5),
+                                     1e-6f * static_cast<float>(glm::length(g)));
         std::erase_if(pixels, [&](const SpherePixel& p) { return residual(p) > bound; });
     }
 }
@@ -181,18 +179,18 @@ DiffuseSphereReading readDiffuseSphere(const Image& photograph, const Circle& ou
     const size_t all = pixels.size();
     std::vector<float> greys;
     for (const SpherePixel& p : pixels) {
-        greys.push_back(grey(p.radiance));
+        greys.push_back(channelMean(p.radiance));
     }
     const float darkLevel = greys.empty() ? 0 : rules.darkShare * quantile(greys, 0.99);
     std::erase_if(pixels, [&](const SpherePixel& p) {
         return !(darkLevel > 0) || !obeysRules(p, lightDirection, darkLevel, rules);
     });
-    if (pixels.size() >= kFewestPixels) {
+    if (pixels.size() >= kFewestSpherePixels) {
         dropOutliers(pixels);
     }
-    if (pixels.size() < kFewestPixels) {
+    if (pixels.size() < kFewestSpherePixels) {
         throw Error(source, fmt::format("has {} pixels that speak of the light", pixels.size()),
-                    fmt::format("at least {} lit pixels of a diffuse sphere", kFewestPixels));
+                    fmt::format("at least {} lit pixels of a diffuse sphere", kFewestSpherePixels));
     }
     DiffuseSphereReading reading;
     glm::dvec3 sum(0);

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 
+#include "acquisition/capture/exposure_merge.h"
 #include "engine/files/error.h"
 #include "engine/files/measures.h"
 
@@ -28,8 +29,7 @@ bool inside(const Circle& c, int x, int y)
 
 float brightness(const Image& image, int x, int y)
 {
-    const glm::vec3 v = image.rgb(x, y);
-    return (v.x + v.y + v.z) / 3;
+    return channelMean(image.rgb(x, y));
 }
 
 struct Region {

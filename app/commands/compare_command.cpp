@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "acquisition/capture/capture.h"
+#include "acquisition/capture/capture_maps.h"
 #include "app/commands/commands.h"
 #include "engine/files/code_difference.h"
 #include "engine/files/error.h"

@@ -3,7 +3,7 @@
 #include <chrono>
 
 #include "acquisition/chain/material_albedo.h"
-#include "acquisition/segmentation/label_picture.h"
+#include "acquisition/segmentation/segmentation.h"
 
 namespace nacre {
 

@@ -5,8 +5,7 @@
 #include <limits>
 #include <set>
 
-#include "acquisition/capture/capture_window.h"
-#include "acquisition/capture/matlab_normals.h"
+#include "acquisition/capture/capture_maps.h"
 #include "acquisition/lights/sphere_outline.h"
 #include "engine/files/structural_similarity.h"
 #include "engine/scene/reference.h"

@@ -6,7 +6,7 @@
 #include <nanoflann.hpp>
 
 #include "acquisition/brdf/bake.h"
-#include "assets/synth/hash_random.h"
+#include "engine/files/hash_random.h"
 #include "engine/files/parallel_for.h"
 
 namespace nacre {

@@ -4,8 +4,8 @@
 
 #include <gtest/gtest.h>
 
-#include "assets/synth/hash_random.h"
 #include "engine/files/code_difference.h"
+#include "engine/files/hash_random.h"
 #include "engine/files/structural_similarity.h"
 
 namespace nacre {
