@@ -1,19 +1,12 @@
 #include "acquisition/capture/capture.h"
 
 #include <algorithm>
-#include <map>
-#include <numeric>
-#include <set>
 
 #include <fmt/format.h>
 
 #include "acquisition/capture/capture_layouts.h"
-#include "acquisition/capture/capture_offset.h"
-#include "acquisition/capture/capture_window.h"
-#include "acquisition/capture/picture_files.h"
-#include "acquisition/capture/sphere_specification.h"
+#include "acquisition/capture/capture_maps.h"
 #include "engine/files/error.h"
-#include "engine/files/text_files.h"
 
 namespace nacre {
 namespace fs = std::filesystem;
@@ -21,7 +14,6 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr size_t kFewestPhotographs = 3; // a normal has two degrees of freedom, the albedo is the third
-constexpr int kMaskRowsAtOnce = 64;      // few enough for memory, enough to make up for what each call costs
 constexpr const char* kLayouts =
     "capture.json; filenames.txt with light_directions.txt (DiLiGenT); one .lp file here or above, beside its "
     "photographs "
@@ -52,18 +44,6 @@ LayoutContents readLayout(const fs::path& folder, const CaptureOptions& options)
     return *contents;
 }
 
-// A folder's photographs, or the capture's own. A sphere's mask beside the photographs is not the object's.
-SpherePhotographs sphereFrom(const char* option, const fs::path& specification, LayoutContents& contents)
-{
-    const std::optional<SphereInPicture> sphere = sphereInPicture(option, specification);
-    if (!sphere) {
-        return readSphereFolder(specification);
-    }
-    std::error_code ignored;
-    std::erase_if(contents.masks, [&](const fs::path& mask) { return fs::equivalent(mask, sphere->mask, ignored); });
-    return photographsOfSphere(*sphere, contents.capture);
-}
-
 // A mirror sphere that the user names counts for more than directions that a list of photographs came with; where
 // irradiances came with them, the lights were measured.
 void replaceDirections(Capture& capture)
@@ -81,11 +61,11 @@ void applyOptions(LayoutContents& contents, const CaptureOptions& options)
         contents.offset = options.offset;
     }
     if (!options.mirrorSphere.empty()) {
-        contents.capture.mirrorSphere = sphereFrom("--mirror-sphere", options.mirrorSphere, contents);
+        contents.capture.mirrorSphere = namedSphere("--mirror-sphere", options.mirrorSphere, contents);
         replaceDirections(contents.capture);
     }
     if (!options.diffuseSphere.empty()) {
-        contents.capture.diffuseSphere = sphereFrom("--diffuse-sphere", options.diffuseSphere, contents);
+        contents.capture.diffuseSphere = namedSphere("--diffuse-sphere", options.diffuseSphere, contents);
     }
     if (!options.mask.empty()) {
         contents.masks = {options.mask};
@@ -119,88 +99,6 @@ void requireCounts(const LayoutContents& contents)
     }
     requireSphereCount(capture.mirrorSphere, contents);
     requireSphereCount(capture.diffuseSphere, contents);
-}
-
-bool isNamed(const Photograph& photograph, const std::string& name)
-{
-    const std::string own = lowerCase(photograph.name);
-    return lowerCase(name) == own || lowerCase(name) == fs::path(own).stem().string();
-}
-
-void markSkipped(std::vector<Photograph>& photographs, const std::vector<std::string>& names)
-{
-    for (const std::string& name : names) {
-        size_t found = 0;
-        for (Photograph& photograph : photographs) {
-            if (isNamed(photograph, name)) {
-                photograph.skip = true;
-                ++found;
-            }
-        }
-        if (found != 1) {
-            throw Error("", fmt::format("--skip {} names {} photographs", name, found),
-                        fmt::format("one, such as {}", photographs[0].name), Error::kUsage);
-        }
-    }
-}
-
-// Keeps what stands where nothing is skipped; `list` is empty or as long as `photographs`.
-template <class Item> void keepUnskipped(std::vector<Item>& list, const std::vector<Photograph>& photographs)
-{
-    std::vector<Item> kept;
-    for (size_t i = 0; i < list.size(); ++i) {
-        if (!photographs[i].skip) {
-            kept.push_back(std::move(list[i]));
-        }
-    }
-    list = std::move(kept);
-}
-
-void dropSkipped(Capture& capture)
-{
-    const std::vector<Photograph> photographs = capture.photographs;
-    for (const Photograph& photograph : photographs) {
-        if (photograph.skip) {
-            capture.skipped.push_back(photograph.name);
-        }
-    }
-    keepUnskipped(capture.photographs, photographs);
-    keepUnskipped(capture.lights, photographs);
-    for (auto* sphere : {&capture.mirrorSphere, &capture.diffuseSphere}) {
-        if (*sphere) {
-            keepUnskipped((*sphere)->photographs, photographs);
-        }
-    }
-}
-
-// A rig may have the lights of all photographs, or of those that are not skipped.
-void skipAndAssignRig(LayoutContents& contents, const CaptureOptions& options)
-{
-    markSkipped(contents.capture.photographs, options.skip);
-    if (options.rig.empty()) {
-        dropSkipped(contents.capture);
-        return;
-    }
-    const LightFile rig = loadLightFile(options.rig);
-    if (rig.lights.size() == contents.capture.photographs.size()) {
-        assignLights(contents, rig, options.rig);
-        dropSkipped(contents.capture);
-    } else {
-        dropSkipped(contents.capture);
-        assignLights(contents, rig, options.rig);
-    }
-}
-
-void applyOffset(Capture& capture, const OffsetChoice& choice)
-{
-    if (!choice.automatic) {
-        capture.offset = choice.value;
-        capture.offsetSource = choice.value > 0 ? "given" : "";
-        return;
-    }
-    const OffsetEstimate estimate = estimateOffset(capture);
-    capture.offset = estimate.value;
-    capture.offsetSource = estimate.reason;
 }
 
 void requireLabelSize(const Capture& capture)
@@ -242,13 +140,6 @@ void requireSphereMask(const std::optional<SpherePhotographs>& sphere)
     }
 }
 
-// Names agree without folders, which may be another machine's, extension and case.
-std::string comparedName(std::string name)
-{
-    std::replace(name.begin(), name.end(), '\\', '/');
-    return lowerCase(fs::path(name).stem().string());
-}
-
 } // namespace
 
 std::string describe(CaptureLayout layout)
@@ -266,96 +157,12 @@ std::string describe(CaptureLayout layout)
     return "capture.json";
 }
 
-Photograph photographOf(const fs::path& file)
-{
-    return {file.filename().string(), {Exposure{file}}};
-}
-
-std::vector<size_t> lightsByName(const LightFile& lights, const std::vector<Photograph>& photographs,
-                                 const fs::path& file)
-{
-    std::map<std::string, size_t> lightOf;
-    for (size_t i = 0; i < lights.photographs.size(); ++i) {
-        lightOf.emplace(comparedName(lights.photographs[i]), i);
-    }
-    std::vector<size_t> order;
-    const Photograph* unnamed = nullptr;
-    for (const Photograph& photograph : photographs) {
-        const auto named = lightOf.find(comparedName(photograph.name));
-        if (named != lightOf.end()) {
-            order.push_back(named->second);
-        } else if (!unnamed) {
-            unnamed = &photograph;
-        }
-    }
-    const bool repeated = std::set(order.begin(), order.end()).size() != order.size();
-    if (repeated || lightOf.size() != lights.photographs.size()) {
-        return {};
-    }
-    if (unnamed && !order.empty()) {
-        throw Error(
-            file,
-            fmt::format("names {} of {} photographs, but not {}", order.size(), photographs.size(), unnamed->name),
-            "a light for each photograph");
-    }
-    return order;
-}
-
-void assignLights(LayoutContents& contents, const LightFile& lights, const fs::path& file)
-{
-    Capture& capture = contents.capture;
-    if (lights.lights.size() != capture.photographs.size()) {
-        throw Error(file,
-                    fmt::format("has {} lights, {} has {} photographs", lights.lights.size(), contents.listing.string(),
-                                capture.photographs.size()),
-                    "one light for each photograph");
-    }
-    std::vector<size_t> order = lightsByName(lights, capture.photographs, file);
-    capture.lightsOrder = order.empty() ? "matched to the photographs by order" : "matched to the photographs by name";
-    if (order.empty()) {
-        order.resize(lights.lights.size());
-        std::iota(order.begin(), order.end(), size_t{0});
-    }
-    capture.lights.clear();
-    std::transform(order.begin(), order.end(), std::back_inserter(capture.lights),
-                   [&](size_t index) { return lights.lights[index]; });
-    capture.lightsSource = file.string();
-    capture.irradianceGiven = lights.irradianceGiven;
-}
-
-std::vector<uint8_t> loadMask(const fs::path& file, int width, int height)
-{
-    // Masks hold shape, not light: no curve. By rows, since a mask is as large as its photographs.
-    ImageRows rows(file, TransferCurve::linear);
-    const ImageHeader& header = rows.header();
-    if (width != 0 && (header.width != width || header.height != height)) {
-        throw Error(file, fmt::format("is {} x {}", header.width, header.height),
-                    fmt::format("{} x {} as the photographs", width, height));
-    }
-    const int channels = rows.channels();
-    std::vector<uint8_t> mask;
-    mask.reserve(static_cast<size_t>(header.width) * header.height);
-    std::vector<float> values;
-    for (int y = 0; y < header.height; y += kMaskRowsAtOnce) {
-        const int last = std::min(y + kMaskRowsAtOnce, header.height);
-        values.resize(static_cast<size_t>(last - y) * header.width * channels);
-        rows.read(y, last, values);
-        for (auto pixel = values.begin(); pixel != values.end(); pixel += channels) {
-            mask.push_back(*std::max_element(pixel, pixel + channels) > 0.5f ? 1 : 0);
-        }
-    }
-    if (std::find(mask.begin(), mask.end(), uint8_t{1}) == mask.end()) {
-        throw Error(file, "is an empty mask", "the object brighter than one half");
-    }
-    return mask;
-}
-
 Capture loadCapture(const fs::path& folder, const CaptureOptions& options)
 {
     LayoutContents contents = readLayout(folder, options);
     applyOptions(contents, options);
     requireCounts(contents);
-    skipAndAssignRig(contents, options);
+    skipAndAssignRig(contents, options.skip, options.rig);
     requireCounts(contents);
     examineHeaders(contents, options.transfer);
     Capture& capture = contents.capture;

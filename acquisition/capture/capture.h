@@ -50,6 +50,9 @@ struct SphereInPicture {
     std::filesystem::path mask; // white on the sphere, of the files' size or the crop's; empty: its outline is found
 };
 
+// X,Y,W,H, for messages.
+std::string rectangleOf(const SphereInPicture& sphere);
+
 // Photographs of a calibration sphere, one per light in the capture's order; its outline as a mask, a circle or a
 // crop in which it is to be found.
 struct SpherePhotographs {
@@ -117,8 +120,17 @@ struct CaptureOptions {
 // reading the photographs once. Throws Error.
 Capture loadCapture(const std::filesystem::path& folder, const CaptureOptions& options = {});
 
-// A mask picture: inside where the brightest channel is above one half. Throws Error where it is empty or its size
-// differs from width x height (0: any).
-std::vector<uint8_t> loadMask(const std::filesystem::path& file, int width, int height);
+// The parts of a capture that belong to the photographs named; the spheres' photographs go with those of the object.
+Capture selectPhotographs(const Capture& capture, const std::vector<size_t>& chosen);
+
+// The items named, in order; empty stays empty, as lists that a capture does not have.
+template <class Item> std::vector<Item> selectItems(const std::vector<Item>& items, const std::vector<size_t>& chosen)
+{
+    std::vector<Item> result;
+    for (size_t i = 0; i < chosen.size() && !items.empty(); ++i) {
+        result.push_back(items[chosen[i]]);
+    }
+    return result;
+}
 
 } // namespace nacre

@@ -1,14 +1,103 @@
-// Our own layout, docs/formats.md.
 #include <cmath>
+#include <vector>
 
 #include <fmt/format.h>
 
+#include "acquisition/capture/capture.h"
 #include "acquisition/capture/capture_layouts.h"
-#include "acquisition/capture/json_photographs.h"
 #include "engine/files/strict_json.h"
 
 namespace nacre {
 namespace fs = std::filesystem;
+
+namespace {
+
+struct JsonPhotographs {
+    std::vector<Photograph> photographs;
+    bool exposuresGiven = false;
+};
+
+double positiveNumber(const JsonNode& node, const char* expected)
+{
+    const double number = node.number();
+    if (!(number > 0)) {
+        throw node.error(fmt::format("is {}", number), expected);
+    }
+    return number;
+}
+
+double secondsOf(const JsonNode& node)
+{
+    return positiveNumber(node, "a positive time");
+}
+
+std::vector<Exposure> bracketOf(const JsonNode& node)
+{
+    std::vector<Exposure> exposures;
+    for (const JsonNode& item : node.items()) {
+        item.allowKeys({"file", "seconds"});
+        exposures.push_back({item.at("file").existingPath(), secondsOf(item.at("seconds"))});
+    }
+    if (exposures.empty()) {
+        throw node.error("is empty", "at least one exposure");
+    }
+    return exposures;
+}
+
+struct GivenPhotograph {
+    Photograph photograph;
+    bool exposureGiven;
+};
+
+GivenPhotograph readPhotograph(const JsonNode& node, bool lightsAllowed)
+{
+    if (node.isText()) {
+        return {photographOf(node.existingPath()), false};
+    }
+    if (lightsAllowed) {
+        node.allowKeys({"file", "exposureSeconds", "exposures", "light", "skip"});
+    } else {
+        node.allowKeys({"file", "exposureSeconds", "exposures"});
+    }
+    const auto skip = node.find("skip");
+    if (const auto bracket = node.find("exposures")) {
+        if (node.has("file") || node.has("exposureSeconds")) {
+            throw node.error("has \"exposures\" beside a file or time of its own", "one of the two");
+        }
+        Photograph photograph{"", bracketOf(*bracket), skip && skip->truth()};
+        photograph.name = photograph.exposures[0].file.filename().string();
+        return {photograph, true};
+    }
+    GivenPhotograph given{photographOf(node.at("file").existingPath()), false};
+    given.photograph.skip = skip && skip->truth();
+    if (const auto seconds = node.find("exposureSeconds")) {
+        given.photograph.exposures[0].seconds = secondsOf(*seconds);
+        given.exposureGiven = true;
+    }
+    return given;
+}
+
+// The entries of a "photographs" array: a file's name, an object with "file" and perhaps "exposureSeconds", or one
+// with "exposures"; "light" and "skip" are known keys where lights are allowed. Times are given for all or for none.
+JsonPhotographs readPhotographs(const std::vector<JsonNode>& nodes, bool lightsAllowed)
+{
+    JsonPhotographs result;
+    for (const JsonNode& node : nodes) {
+        const GivenPhotograph given = readPhotograph(node, lightsAllowed);
+        if (!result.photographs.empty() && given.exposureGiven != result.exposuresGiven) {
+            throw node.error(
+                fmt::format("{} an exposure time, unlike the first", given.exposureGiven ? "has" : "lacks"),
+                "times for all photographs or for none");
+        }
+        result.exposuresGiven = given.exposureGiven;
+        result.photographs.push_back(given.photograph);
+    }
+    return result;
+}
+
+} // namespace
+
+// Our own layout, docs/formats.md.
 
 namespace {
 
@@ -66,22 +155,13 @@ SpherePhotographs sphereOf(const JsonNode& node)
     return sphere;
 }
 
-void addIrradiances(LightFile& lights, const JsonNode& node)
+void addNamedIrradiances(LightFile& lights, const JsonNode& node)
 {
-    const fs::path file = node.existingPath();
     if (lights.lights.empty() || lights.irradianceGiven) {
         throw node.error(lights.irradianceGiven ? "comes beside irradiances of the lights" : "comes without directions",
                          "directions from \"lights\" or \"light\", and one source of irradiances");
     }
-    const std::vector<glm::vec3> irradiances = loadIrradiances(file);
-    if (irradiances.size() != lights.lights.size()) {
-        throw Error(file, fmt::format("has {} lights, the directions are {}", irradiances.size(), lights.lights.size()),
-                    "as many");
-    }
-    for (size_t i = 0; i < irradiances.size(); ++i) {
-        lights.lights[i].irradiance = irradiances[i];
-    }
-    lights.irradianceGiven = true;
+    addIrradiances(lights, node.existingPath());
 }
 
 void readLights(const JsonNode& root, const std::vector<JsonNode>& photographs, LayoutContents& contents)
@@ -96,7 +176,7 @@ void readLights(const JsonNode& root, const std::vector<JsonNode>& photographs, 
         lights = loadLightFile(source);
     }
     if (const auto node = root.find("irradiances")) {
-        addIrradiances(lights, *node);
+        addNamedIrradiances(lights, *node);
     }
     if (!lights.lights.empty()) {
         assignLights(contents, lights, source);
@@ -163,15 +243,6 @@ int boxOf(const JsonNode& node)
     throw node.error(fmt::format("is {}", scale), "1, 1/2, 1/3 or 1/4: boxes of whole pixels are averaged");
 }
 
-double lengthOf(const JsonNode& node)
-{
-    const double length = node.number();
-    if (!(length > 0)) {
-        throw node.error(fmt::format("is {}", length), "a positive length");
-    }
-    return length;
-}
-
 void readSizes(const JsonNode& root, Capture& capture)
 {
     if (const auto crop = root.find("crop")) {
@@ -185,8 +256,8 @@ void readSizes(const JsonNode& root, Capture& capture)
                          "\"lightDistance\" and \"objectWidth\", in one unit of length");
     }
     if (const auto distance = root.find("lightDistance")) {
-        capture.lightDistance = lengthOf(*distance);
-        capture.objectWidth = lengthOf(root.at("objectWidth"));
+        capture.lightDistance = positiveNumber(*distance, "a positive length");
+        capture.objectWidth = positiveNumber(root.at("objectWidth"), "a positive length");
     }
 }
 
@@ -227,18 +298,16 @@ std::optional<LayoutContents> readJsonLayout(const fs::path& folder)
     if (const auto transfer = root.find("transfer")) {
         contents.transfer = transferOf(*transfer);
     }
-    if (const auto mask = root.find("mask")) {
-        contents.masks = {mask->existingPath()};
+    const auto fileOf = [&](const char* key) {
+        const auto node = root.find(key);
+        return node ? node->existingPath() : fs::path();
+    };
+    if (root.has("mask")) {
+        contents.masks = {fileOf("mask")};
     }
-    if (const auto truth = root.find("truthNormals")) {
-        capture.truthNormals = truth->existingPath();
-    }
-    if (const auto labels = root.find("labels")) {
-        capture.labelsFile = labels->existingPath();
-    }
-    if (const auto smooth = root.find("smooth")) {
-        capture.smoothFile = smooth->existingPath();
-    }
+    capture.truthNormals = fileOf("truthNormals");
+    capture.labelsFile = fileOf("labels");
+    capture.smoothFile = fileOf("smooth");
     if (const auto offset = root.find("offset")) {
         contents.offset = offsetOf(*offset);
     }

@@ -40,7 +40,24 @@ void assignLights(LayoutContents& contents, const LightFile& lights, const std::
 std::vector<size_t> lightsByName(const LightFile& lights, const std::vector<Photograph>& photographs,
                                  const std::filesystem::path& file);
 
+// Irradiances from a file with one for each of the lights. Throws Error where the counts differ.
+void addIrradiances(LightFile& lights, const std::filesystem::path& file);
+
+// Leaves out the photographs named, and puts the rig's lights (empty: none) in place of the capture's: those of all
+// photographs, or of those that are not left out.
+void skipAndAssignRig(LayoutContents& contents, const std::vector<std::string>& skip,
+                      const std::filesystem::path& rigFile);
+
+// in-picture:X,Y,W,H[,MASK], a sphere in the object's own photographs, or a folder of photographs and a mask. A
+// sphere's mask beside the photographs is not the object's. Throws Error (usage), naming the option, where it is
+// neither.
+SpherePhotographs namedSphere(const std::string& option, const std::filesystem::path& specification,
+                              LayoutContents& contents);
+
 // The checks that need picture headers alone: sizes, one transfer curve, EXIF exposure times. Fills size and curve.
 void examineHeaders(LayoutContents& contents, const std::optional<TransferCurve>& chosen);
+
+// Sets the offset that is given, or estimates it, which reads every photograph once.
+void applyOffset(Capture& capture, const OffsetChoice& choice);
 
 } // namespace nacre

@@ -1,8 +1,13 @@
 #pragma once
+#include <cstdint>
 #include <span>
 #include <string_view>
+#include <vector>
 
 #include <glm/vec3.hpp>
+
+#include "acquisition/capture/capture.h"
+#include "engine/files/image.h"
 
 namespace nacre {
 
@@ -28,5 +33,14 @@ struct MergedPixel {
 // Malik, Recovering High Dynamic Range Radiance Maps from Photographs, 1997, Eq. 6, in the linear domain). Where every
 // exposure is clipped, the shortest one's value stands. A single exposure is taken as it is.
 MergedPixel mergeExposures(std::span<const glm::vec3> values, std::span<const ExposureScale> scales);
+
+// A photograph as a whole, its exposures merged (exposure_merge.h): for spheres, which have pictures of their own.
+struct MergedPhotograph {
+    Image radiance;                 // 3 channels
+    std::vector<uint8_t> saturated; // per pixel: 1 where a channel was clipped in every exposure
+};
+
+// Throws Error where a file cannot be read or the exposures differ in size.
+MergedPhotograph loadMerged(const Photograph& photograph, const Capture& capture);
 
 } // namespace nacre

@@ -8,6 +8,10 @@
 
 namespace nacre {
 
+// True for interlaced PNGs and progressive JPEGs: no row is complete before the end of the file, so decoders that
+// answer row by row hold the whole picture all the same.
+bool isProgressive(const std::filesystem::path& file);
+
 // One exposure's file, read in bands of rows from top to bottom.
 class ExposureFile {
 public:

@@ -4,7 +4,7 @@
 #include "acquisition/chain/acquire_options.h"
 #include "acquisition/chain/material_samples.h"
 #include "acquisition/chain/normal_estimation.h"
-#include "acquisition/residual/residual_report.h"
+#include "acquisition/residual/residual_estimate.h"
 #include "acquisition/segmentation/segmentation.h"
 #include "engine/surface/surface.h"
 

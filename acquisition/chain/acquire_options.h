@@ -6,8 +6,8 @@
 #include "acquisition/lights/lights.h"
 #include "acquisition/lights/well_spread_lights.h"
 #include "acquisition/normals/normals.h"
-#include "acquisition/residual/residual_options.h"
-#include "acquisition/segmentation/segment_options.h"
+#include "acquisition/residual/residual_estimate.h"
+#include "acquisition/segmentation/segmentation.h"
 
 namespace nacre {
 

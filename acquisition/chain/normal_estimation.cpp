@@ -4,7 +4,6 @@
 
 #include "acquisition/checks/height_consistency.h"
 #include "acquisition/checks/lambertian_misfit.h"
-#include "acquisition/normals/pixel_sample.h"
 #include "acquisition/normals/smooth_fill.h"
 
 namespace nacre {

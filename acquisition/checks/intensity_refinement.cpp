@@ -22,7 +22,7 @@ constexpr float kRest = 0.002f;
 // Medians over thousands of pixels do not need each pixel's best triple.
 constexpr size_t kTriples = 100;
 // Pixels that a light grazes say little of its strength.
-constexpr float kLeastCosine = 0.3f;
+constexpr float kLeastRefinedCosine = 0.3f;
 constexpr size_t kFewestPixels = 20;
 // With fewer lights a pixel's normal follows whatever a photograph claims.
 constexpr size_t kFewestLights = 6;
@@ -57,7 +57,7 @@ std::vector<ChannelRatios> gatherRatios(const Observations& sample, const Normal
         }
         for (size_t i = 0; i < lights.size(); ++i) {
             const float nDotL = glm::dot(pixel.normal, lights[i].direction);
-            if (squares <= 0 || nDotL < kLeastCosine) {
+            if (squares <= 0 || nDotL < kLeastRefinedCosine) {
                 continue;
             }
             if (verdicts[i] == Verdict::shadow) {

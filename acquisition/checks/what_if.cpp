@@ -24,7 +24,7 @@ constexpr double kTellingDistance = 0.93;
 constexpr double kLeastScatter = 0.004;
 // Directions from a pixel to near lights change what it sees by its own normal, which has to be known: in steps.
 constexpr int kDistanceSteps = 2;
-constexpr float kLeastLitCosine = 0.1f;
+constexpr float kLeastTurnedCosine = 0.1f;
 
 Observations powerOf(const Observations& seen, double exponent)
 {
@@ -63,7 +63,7 @@ Intensities asIfDistant(const Intensities& intensities, const std::vector<glm::v
             const glm::vec3 towards = lights[i].direction - places[p] / distance, &normal = fit.pixels[p].normal;
             const float length = glm::length(towards), far = glm::dot(normal, lights[i].direction),
                         near = glm::dot(normal, towards) / length;
-            if (far > kLeastLitCosine && near > kLeastLitCosine) {
+            if (far > kLeastTurnedCosine && near > kLeastTurnedCosine) {
                 result.values[p * result.stride + i] *= far / near * length * length;
             }
         }

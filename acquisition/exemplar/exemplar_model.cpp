@@ -1,22 +1,87 @@
 #include "acquisition/exemplar/exemplar_model.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
+#include <filesystem>
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
-#include "acquisition/exemplar/exemplar_reestimation.h"
-#include "acquisition/exemplar/object_exemplar.h"
-#include "acquisition/exemplar/reflectance_dictionary.h"
 #include "acquisition/normals/light_triples.h"
+#include "engine/brdf/brdf_models.h"
 #include "engine/files/measures.h"
 #include "engine/files/parallel_for.h"
 
 namespace nacre {
 
 namespace {
+
+// ABC lobes D = A / (1 + B (1 - cos thetaH))^C (Loew et al. 2012): B sets the width (1/sqrt(B) radians), C the tail.
+constexpr float kLobeWidths[] = {20, 150, 1000, 7000, 50000};
+constexpr float kLobeTails[] = {0.6f, 1.0f, 1.6f, 2.6f};
+// The lobe's peak over the diffuse part; 0: no diffuse part, as in metals.
+constexpr float kLobePeaks[] = {0.3f, 1.5f, 6, 25, 100, 0};
+constexpr float kLobeIor = 1.6f;
+
+NamedBrdf builtInLobe(float width, float tail, float peak)
+{
+    const float f0 = (kLobeIor - 1) * (kLobeIor - 1) / ((kLobeIor + 1) * (kLobeIor + 1));
+    AbcModel model;
+    model.kD = glm::vec3(peak > 0 ? 1.0f : 0.0f);
+    model.A = glm::vec3((peak > 0 ? peak : 1.0f) / f0);
+    model.B = width;
+    model.C = tail;
+    model.ior = kLobeIor;
+    return {fmt::format("built-in lobe of B {:g}, C {:g}, {}", width, tail,
+                        peak > 0 ? fmt::format("{:g} x diffuse", peak) : "no diffuse part"),
+            model};
+}
+
+std::string withoutNumber(std::string name)
+{
+    while (!name.empty() && std::isdigit(static_cast<unsigned char>(name.back()))) {
+        name.pop_back();
+    }
+    return name;
+}
+
+void addFits(const std::string& family, const std::vector<NamedBrdf>& fits, const std::vector<std::string>& excluded,
+             std::vector<NamedBrdf>& dictionary)
+{
+    for (const NamedBrdf& fit : fits) {
+        const bool out = std::any_of(excluded.begin(), excluded.end(), [&](const std::string& name) {
+            return withoutNumber(name) == withoutNumber(fit.name);
+        });
+        if (!out) {
+            dictionary.push_back({family + ":" + fit.name, fit.model});
+        }
+    }
+}
+
+// Known reflectances to explain an object by. Built in: Lambert, and Lambert plus an ABC lobe over a grid of widths,
+// tails and strengths, from matt to metal. `fitsFolder` (empty: none) adds the published fits, named merl-abc:NAME and
+// merl-sgd:NAME. `excluded` leaves out published fits by NAME, in both families and with their numbered siblings
+// (gold-paint takes gold-paint2 along).
+std::vector<NamedBrdf> makeReflectanceDictionary(const std::filesystem::path& fitsFolder,
+                                                 const std::vector<std::string>& excluded)
+{
+    std::vector<NamedBrdf> dictionary;
+    dictionary.push_back({"Lambert", LambertGgx{glm::vec3(0.5f), glm::vec3(0), 0.5f}});
+    for (const float width : kLobeWidths) {
+        for (const float tail : kLobeTails) {
+            for (const float peak : kLobePeaks) {
+                dictionary.push_back(builtInLobe(width, tail, peak));
+            }
+        }
+    }
+    if (!fitsFolder.empty()) {
+        addFits("merl-abc", loadAbcFits(fitsFolder / "merl_abc_params.csv"), excluded, dictionary);
+        addFits("merl-sgd", loadSgdFits(fitsFolder / "merl_sgd_params.csv"), excluded, dictionary);
+    }
+    return dictionary;
+}
 
 constexpr int kCoarseSize = 32; // texels across: 3.6 degrees in the middle
 constexpr size_t kChosenExemplars = 6;
@@ -77,13 +142,8 @@ std::vector<Match> matchAll(const PredictedBall& ball, const FewPixels& few, con
 
 FewPixels choosePixels(const Intensities& sample, const std::vector<glm::vec3>& starts)
 {
-    const size_t count = std::min(kPixelsToChoose, sample.pixelCount());
-    FewPixels few{makeIntensities(count, sample.lightCount), {}, std::vector<glm::vec3>(count)};
-    for (size_t j = 0; j < count; ++j) {
-        const size_t p = (2 * j + 1) * sample.pixelCount() / (2 * count); // spread evenly
-        std::copy_n(sample.padded(p), sample.stride, &few.intensities.values[j * sample.stride]);
-        few.starts[j] = starts[p];
-    }
+    const std::vector<size_t> pixels = spreadPixels(sample.pixelCount(), kPixelsToChoose);
+    FewPixels few{selectPixels(sample, pixels), {}, selectItems(starts, pixels)};
     few.roots = few.intensities;
     for (float& value : few.roots.values) {
         value = std::sqrt(std::max(value, 0.0f));

@@ -9,6 +9,7 @@
 #include <glm/matrix.hpp>
 #include <glm/trigonometric.hpp>
 
+#include "acquisition/capture/exposure_merge.h"
 #include "engine/files/error.h"
 #include "engine/files/measures.h"
 
@@ -16,8 +17,8 @@ namespace nacre {
 
 namespace {
 
-constexpr size_t kFewestPixels = 20;
-constexpr float kOutlierSigmas = 3.0f;
+constexpr size_t kFewestSpherePixels = 20;
+constexpr float kSphereOutlierSigmas = 3.0f;
 constexpr int kTrimPasses = 3;
 // Attached shadow begins this far behind the terminator, so that neither a wrong direction nor the light's size
 // matters.
@@ -68,7 +69,8 @@ void dropOutliers(std::vector<SpherePixel>& pixels)
     }
     const float sigma = 1.4826f * quantile(deviations, 0.5);
     std::erase_if(pixels, [&](const SpherePixel& p) {
-        return std::abs(channelMean(p.radiance) / p.nDotL - median) > kOutlierSigmas * std::max(sigma, 1e-6f * median);
+        return std::abs(channelMean(p.radiance) / p.nDotL - median) >
+               kSphereOutlierSigmas * std::max(sigma, 1e-6f * median);
     });
 }
 
@@ -139,7 +141,7 @@ double offsetOf(std::span<const DiffuseSphereReading> readings)
         sum += static_cast<double>(reading.shadowPixels) * reading.shadowLevel;
         sums.push_back(reading.sums);
     }
-    return pixels >= kFewestPixels ? sum / pixels : commonOffset(sums);
+    return pixels >= kFewestSpherePixels ? sum / pixels : commonOffset(sums);
 }
 
 // Drops what the fit does not explain, and fits again.
@@ -159,8 +161,8 @@ void fitShading(std::vector<SpherePixel> pixels, DiffuseSphereReading& reading)
         };
         std::vector<float> residuals;
         std::transform(pixels.begin(), pixels.end(), std::back_inserter(residuals), residual);
-        const float bound =
-            std::max(kOutlierSigmas * 1.4826f * quantile(residuals, 0.5), 1e-6f * static_cast<float>(glm::length(g)));
+        const float bound = std::max(kSphereOutlierSigmas * 1.4826f * quantile(residuals, 0.5),
+                                     1e-6f * static_cast<float>(glm::length(g)));
         std::erase_if(pixels, [&](const SpherePixel& p) { return residual(p) > bound; });
     }
 }
@@ -183,12 +185,12 @@ DiffuseSphereReading readDiffuseSphere(const Image& photograph, const Circle& ou
     std::erase_if(pixels, [&](const SpherePixel& p) {
         return !(darkLevel > 0) || !obeysRules(p, lightDirection, darkLevel, rules);
     });
-    if (pixels.size() >= kFewestPixels) {
+    if (pixels.size() >= kFewestSpherePixels) {
         dropOutliers(pixels);
     }
-    if (pixels.size() < kFewestPixels) {
+    if (pixels.size() < kFewestSpherePixels) {
         throw Error(source, fmt::format("has {} pixels that speak of the light", pixels.size()),
-                    fmt::format("at least {} lit pixels of a diffuse sphere", kFewestPixels));
+                    fmt::format("at least {} lit pixels of a diffuse sphere", kFewestSpherePixels));
     }
     DiffuseSphereReading reading;
     glm::dvec3 sum(0);

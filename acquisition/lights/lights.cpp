@@ -9,9 +9,9 @@
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
-#include "acquisition/capture/merged_photograph.h"
+#include "acquisition/capture/capture_maps.h"
+#include "acquisition/capture/exposure_merge.h"
 #include "acquisition/lights/mirror_sphere.h"
-#include "acquisition/lights/sphere_agreement.h"
 #include "acquisition/lights/sphere_in_picture.h"
 #include "acquisition/lights/sphere_outline.h"
 #include "engine/files/error.h"
@@ -23,9 +23,53 @@ namespace nacre {
 
 namespace {
 
+constexpr size_t kFewestTurnLights = 3;
+constexpr double kLargestSphereTurn = 2; // degrees; real spheres: docs/limitations.md
+constexpr double kTurnSigmas = 3;
+
+} // namespace
+
+CommonTurn commonTurn(const std::vector<glm::vec3>& mirror, const std::vector<glm::vec3>& shading)
+{
+    Eigen::Matrix3d products = Eigen::Matrix3d::Zero();
+    Eigen::Vector3d right = Eigen::Vector3d::Zero();
+    double squares = 0;
+    for (size_t i = 0; i < mirror.size(); ++i) {
+        const Eigen::Vector3d l(mirror[i].x, mirror[i].y, mirror[i].z), s(shading[i].x, shading[i].y, shading[i].z);
+        Eigen::Matrix3d cross; // w x l as a matrix times w
+        cross << 0, l.z(), -l.y(), -l.z(), 0, l.x(), l.y(), -l.x(), 0;
+        products += cross.transpose() * cross;
+        right += cross.transpose() * (s - l);
+        squares += (s - l).squaredNorm();
+    }
+    const Eigen::Vector3d turn = products.completeOrthogonalDecomposition().solve(right);
+    const double left = std::max(0.0, squares - turn.dot(right));
+    const double freedom = std::max(1.0, 2.0 * static_cast<double>(mirror.size()) - 3);
+    // About x and y alone: lights around the view say little of a turn about it, and it harms least.
+    const double error = std::sqrt(
+        left / freedom * products.completeOrthogonalDecomposition().pseudoInverse().topLeftCorner<2, 2>().trace());
+    return {glm::degrees(turn.head<2>().norm()), glm::degrees(error)};
+}
+
+std::optional<std::string> sphereWarning(const std::vector<glm::vec3>& mirror, const std::vector<glm::vec3>& shading)
+{
+    if (mirror.size() < kFewestTurnLights || mirror.size() != shading.size()) {
+        return {};
+    }
+    const CommonTurn turn = commonTurn(mirror, shading);
+    if (turn.degrees < kLargestSphereTurn || turn.degrees < kTurnSigmas * turn.standardError) {
+        return {};
+    }
+    return fmt::format("the diffuse sphere's shading puts all lights {:.1f} degrees to one side of where they are said "
+                       "to be; check the outlines (masks) of the spheres",
+                       turn.degrees);
+}
+
+namespace {
+
 // Beyond it, an error of 1 % in the photographs can turn the normal by more than it is long.
 constexpr double kWorstLightCondition = 100;
-constexpr double kLargestTurn = 2; // degrees
+constexpr double kLargestNearTurn = 2; // degrees
 // Of photographs against the model, and what it may make of the normals in degrees: as much as gloss does to methods
 // that do not know it.
 constexpr double kUsualError = 0.01;
@@ -113,13 +157,13 @@ void warnOfNearLights(const Capture& capture, Rig& rig)
         return;
     }
     const double degrees = glm::degrees(std::atan2(*capture.objectWidth / 2, *capture.lightDistance));
-    if (degrees > kLargestTurn) {
+    if (degrees > kLargestNearTurn) {
         rig.warnings.push_back(
             {FindingCode::lightsNear,
              fmt::format(
                  "the lights are not distant: with a width of {:g} at a distance of {:g}, their directions turn "
                  "by {:.1f} degrees from the object's middle to its edge ({:.0f} are harmless)",
-                 *capture.objectWidth, *capture.lightDistance, degrees, kLargestTurn)});
+                 *capture.objectWidth, *capture.lightDistance, degrees, kLargestNearTurn)});
     }
 }
 
@@ -165,9 +209,10 @@ double requireSpanningLights(const std::vector<Light>& lights, const std::filesy
     }
     const double condition = conditionOf(lights);
     if (!(condition < kWorstLightCondition)) {
-        throw Error(
-            source, fmt::format("its lights lie in one plane with the object (condition number {:.3g})", condition),
-            fmt::format("directions that span space (below {:.0f}; well-spread lights have 1 to 10)", kWorstLightCondition));
+        throw Error(source,
+                    fmt::format("its lights lie in one plane with the object (condition number {:.3g})", condition),
+                    fmt::format("directions that span space (below {:.0f}; well-spread lights have 1 to 10)",
+                                kWorstLightCondition));
     }
     return condition;
 }

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 
+#include "acquisition/capture/exposure_merge.h"
 #include "engine/files/error.h"
 #include "engine/files/measures.h"
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <vector>
 
 #include <Eigen/Dense>
 #include <fmt/format.h>
@@ -20,7 +19,7 @@ constexpr double kOnCirclePixels = 1.5;
 // Share of border points that must lie on the circle, and of the circle that the mask must cover.
 constexpr double kDiscShare = 0.8;
 
-constexpr int kRefinements = 20;
+constexpr int kOutlineRefinements = 20;
 
 using Point = glm::dvec2;
 
@@ -113,7 +112,7 @@ double coveredShare(const Circle& c, std::span<const uint8_t> mask, int width, i
 
 Circle refinedCircle(Circle circle, const std::vector<glm::dvec2>& border)
 {
-    for (int i = 0; i < kRefinements; ++i) {
+    for (int i = 0; i < kOutlineRefinements; ++i) {
         circle = stepTowards(circle, border);
     }
     return circle;

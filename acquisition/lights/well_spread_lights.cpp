@@ -9,20 +9,6 @@
 
 namespace nacre {
 
-namespace {
-
-// Empty stays empty: lists that a capture does not have.
-template <class Item> std::vector<Item> selected(const std::vector<Item>& items, const std::vector<size_t>& chosen)
-{
-    std::vector<Item> result;
-    for (size_t i = 0; i < chosen.size() && !items.empty(); ++i) {
-        result.push_back(items[chosen[i]]);
-    }
-    return result;
-}
-
-} // namespace
-
 std::vector<size_t> farthestFirst(const std::vector<glm::vec3>& directions, const std::vector<size_t>& candidates,
                                   size_t count)
 {
@@ -69,29 +55,16 @@ std::vector<size_t> chosenLights(const std::vector<Light>& lights, const LightCh
     return farthestFirst(directions, candidates, choice.given);
 }
 
-Capture selectPhotographs(const Capture& capture, const std::vector<size_t>& chosen)
-{
-    Capture result = capture;
-    result.photographs = selected(capture.photographs, chosen);
-    result.lights = selected(capture.lights, chosen);
-    for (std::optional<SpherePhotographs>* sphere : {&result.mirrorSphere, &result.diffuseSphere}) {
-        if (*sphere) {
-            (*sphere)->photographs = selected((*sphere)->photographs, chosen);
-        }
-    }
-    return result;
-}
-
 std::vector<Light> selectLights(const std::vector<Light>& lights, const std::vector<size_t>& chosen)
 {
-    return selected(lights, chosen);
+    return selectItems(lights, chosen);
 }
 
 Rig selectLights(const Rig& rig, const std::vector<size_t>& chosen)
 {
     Rig result = rig;
     result.lights = selectLights(rig.lights, chosen);
-    result.shadingDisagreement = selected(rig.shadingDisagreement, chosen);
+    result.shadingDisagreement = selectItems(rig.shadingDisagreement, chosen);
     result.condition = conditionOf(result.lights);
     return result;
 }

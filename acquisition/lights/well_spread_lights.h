@@ -35,9 +35,7 @@ std::vector<size_t> farthestFirst(const std::vector<glm::vec3>& directions, cons
 // than there are.
 std::vector<size_t> chosenLights(const std::vector<Light>& lights, const LightChoice& choice);
 
-// The parts of a capture, and of its calibrated rig, that belong to the photographs named; the rig's condition is that
-// of the lights left. The spheres' photographs go with those of the object.
-Capture selectPhotographs(const Capture& capture, const std::vector<size_t>& chosen);
+// The lights of the photographs named; the rig's condition is that of the lights left.
 std::vector<Light> selectLights(const std::vector<Light>& lights, const std::vector<size_t>& chosen);
 Rig selectLights(const Rig& rig, const std::vector<size_t>& chosen);
 

@@ -1,5 +1,7 @@
 #include "acquisition/normals/intensities.h"
 
+#include <algorithm>
+
 #include "engine/files/measures.h"
 
 namespace nacre {
@@ -39,6 +41,24 @@ Intensities selectLights(const Intensities& intensities, const std::vector<size_
         for (size_t i = 0; i < lights.size(); ++i) {
             result.values[p * result.stride + i] = intensities.ofPixel(p)[lights[i]];
         }
+    }
+    return result;
+}
+
+std::vector<size_t> spreadPixels(size_t pixels, size_t most)
+{
+    std::vector<size_t> chosen(std::min(most, pixels));
+    for (size_t j = 0; j < chosen.size(); ++j) {
+        chosen[j] = (2 * j + 1) * pixels / (2 * chosen.size());
+    }
+    return chosen;
+}
+
+Intensities selectPixels(const Intensities& intensities, const std::vector<size_t>& pixels)
+{
+    Intensities result = makeIntensities(pixels.size(), intensities.lightCount);
+    for (size_t j = 0; j < pixels.size(); ++j) {
+        std::copy_n(intensities.padded(pixels[j]), intensities.stride, &result.values[j * result.stride]);
     }
     return result;
 }

@@ -32,4 +32,8 @@ float brightLevel(std::span<const float> observed);
 // The columns of the lights that are named, for leaving others out.
 Intensities selectLights(const Intensities& intensities, const std::vector<size_t>& lights);
 
+// Numbers of at most `most` pixels that are spread evenly over so many, and the rows of pixels that are named.
+std::vector<size_t> spreadPixels(size_t pixels, size_t most);
+Intensities selectPixels(const Intensities& intensities, const std::vector<size_t>& pixels);
+
 } // namespace nacre

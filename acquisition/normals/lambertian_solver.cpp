@@ -16,7 +16,7 @@ namespace {
 constexpr double kSmallestSingularShare = 0.01;
 constexpr size_t kPixelsPerTask = 512;
 
-Eigen::Vector3d eigenOf(const glm::vec3& v)
+Eigen::Vector3d eigenVector(const glm::vec3& v)
 {
     return {v.x, v.y, v.z};
 }
@@ -62,7 +62,7 @@ LambertianSolver::LambertianSolver(const std::vector<Light>& lights) : all_(std:
     Eigen::MatrixXd matrix(lights.size(), 3);
     for (size_t i = 0; i < lights.size(); ++i) {
         directions_.push_back(lights[i].direction);
-        matrix.row(static_cast<Eigen::Index>(i)) = eigenOf(lights[i].direction);
+        matrix.row(static_cast<Eigen::Index>(i)) = eigenVector(lights[i].direction);
     }
     const Eigen::JacobiSVD<Eigen::MatrixXd> svd(matrix, Eigen::ComputeThinU | Eigen::ComputeThinV);
     const Eigen::MatrixXd inverse = svd.solve(Eigen::MatrixXd::Identity(matrix.rows(), matrix.rows()));
@@ -84,7 +84,7 @@ PixelNormal LambertianSolver::solve(std::span<const float> intensities) const
     PixelNormal pixel = normalOf(sum, intensities.size());
     double squares = 0;
     for (size_t i = 0; i < intensities.size(); ++i) {
-        const double r = intensities[i] - sum.dot(eigenOf(directions_[i]));
+        const double r = intensities[i] - sum.dot(eigenVector(directions_[i]));
         squares += r * r;
     }
     const double freedom = std::max<double>(1, static_cast<double>(intensities.size()) - 3);
@@ -101,7 +101,7 @@ PixelNormal LambertianSolver::solve(std::span<const float> intensities, std::spa
     double total = 0;
     for (size_t i = 0; i < intensities.size(); ++i) {
         if (weights[i] > 0) {
-            const Eigen::Vector3d l = eigenOf(directions_[i]);
+            const Eigen::Vector3d l = eigenVector(directions_[i]);
             gram += weights[i] * l * l.transpose();
             right += weights[i] * l * intensities[i];
             total += weights[i];
@@ -116,7 +116,7 @@ PixelNormal LambertianSolver::solve(std::span<const float> intensities, std::spa
     PixelNormal pixel = normalOf(rhoN, used);
     double squares = 0;
     for (size_t i = 0; i < intensities.size(); ++i) {
-        const double r = intensities[i] - rhoN.dot(eigenOf(directions_[i]));
+        const double r = intensities[i] - rhoN.dot(eigenVector(directions_[i]));
         squares += weights[i] * r * r;
     }
     const double freedom = std::max(1.0, static_cast<double>(used) - 3) * total / static_cast<double>(used);

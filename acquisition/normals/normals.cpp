@@ -1,10 +1,58 @@
 #include "acquisition/normals/normals.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include <fmt/format.h>
 
 #include "engine/files/error.h"
+#include "engine/files/measures.h"
 
 namespace nacre {
+
+namespace {
+
+// A shadow is at least this share darker than the model, whatever the scatter says: cast shadows are.
+constexpr float kShadowShare = 0.5f;
+
+float toleranceOf(std::span<const float> observed, std::span<const float> predicted)
+{
+    thread_local std::vector<float> residuals;
+    residuals.clear();
+    for (size_t i = 0; i < observed.size(); ++i) {
+        if (predicted[i] > 0) {
+            residuals.push_back(std::abs(observed[i] - predicted[i]));
+        }
+    }
+    const float scatter = residuals.empty() ? 0.0f : 3 * 1.4826f * quantile(residuals, 0.5);
+    return std::max(scatter, kLeastTolerance * brightLevel(observed));
+}
+
+} // namespace
+
+void judge(std::span<const float> observed, std::span<const float> predicted, std::span<Verdict> verdicts)
+{
+    const float tolerance = toleranceOf(observed, predicted);
+    for (size_t i = 0; i < observed.size(); ++i) {
+        const float difference = observed[i] - predicted[i];
+        const bool dark = difference < -tolerance && observed[i] < kShadowShare * predicted[i];
+        verdicts[i] = predicted[i] <= 0 || dark ? Verdict::shadow
+                      : difference > tolerance  ? Verdict::highlight
+                                                : Verdict::used;
+    }
+}
+
+float normalUncertainty(float residualScatter, float albedo, float inverseGramTrace)
+{
+    const float error = residualScatter * std::sqrt(inverseGramTrace) / albedo;
+    return std::isfinite(error) ? error : std::numeric_limits<float>::infinity();
+}
+
+float confidenceOf(float uncertainty)
+{
+    const float ratio = uncertainty / kHalfConfidence;
+    return std::isfinite(ratio) ? 1 / (1 + ratio * ratio) : 0.0f;
+}
 
 namespace {
 

@@ -19,7 +19,7 @@ struct Field {
 };
 
 // The pixels to be filled and their numbers among the unknowns.
-struct Region {
+struct FillRegion {
     std::vector<size_t> pixels;
     std::vector<int> numberOf; // -1: not in it
 };
@@ -37,9 +37,9 @@ template <class Visit> void forEachNeighbour(const Field& field, size_t pixel, V
 }
 
 // Flooded from known pixels: a part that touches none has no solution.
-Region reachableRegion(const Field& field, const std::vector<uint8_t>& toFill)
+FillRegion reachableRegion(const Field& field, const std::vector<uint8_t>& toFill)
 {
-    Region region;
+    FillRegion region;
     region.numberOf.assign(toFill.size(), -1);
     const auto add = [&](size_t pixel) {
         if (toFill[pixel] && region.numberOf[pixel] < 0) {
@@ -59,7 +59,7 @@ Region reachableRegion(const Field& field, const std::vector<uint8_t>& toFill)
 }
 
 // The discrete equation: a pixel is the mean of its neighbours that are to be filled or known.
-Eigen::MatrixX3d solveLaplace(const Field& field, const Region& region)
+Eigen::MatrixX3d solveLaplace(const Field& field, const FillRegion& region)
 {
     const auto count = static_cast<Eigen::Index>(region.pixels.size());
     std::vector<Eigen::Triplet<double>> entries;
@@ -93,7 +93,7 @@ void fill(Field field, std::span<const uint8_t> marked, std::span<const uint8_t>
         toFill[i] = marked[i] && object[i];
         field.known[i] = field.known[i] && !toFill[i];
     }
-    const Region region = reachableRegion(field, toFill);
+    const FillRegion region = reachableRegion(field, toFill);
     if (region.pixels.empty()) {
         return;
     }

@@ -1,13 +1,75 @@
 #include "acquisition/residual/residual_choice.h"
 
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 #include <Eigen/Dense>
 
 #include "acquisition/residual/light_spline.h"
+#include "engine/files/hash_random.h"
 #include "engine/lights/light_plane.h"
 
 namespace nacre {
+
+namespace {
+
+constexpr double kMostLeverage = 0.9; // a light that alone decides normals says little, but not nothing
+constexpr double kLeastError = 1e-12;
+
+// Share of each light's observation in its own Lambertian fit: the diagonal of L (L'L)^-1 L'.
+Eigen::ArrayXf leverages(std::span<const Light> lights)
+{
+    Eigen::MatrixXd matrix(lights.size(), 3);
+    for (size_t i = 0; i < lights.size(); ++i) {
+        const glm::vec3& l = lights[i].direction;
+        matrix.row(static_cast<Eigen::Index>(i)) << l.x, l.y, l.z;
+    }
+    const Eigen::MatrixXd hat = matrix * (matrix.transpose() * matrix).ldlt().solve(matrix.transpose());
+    return hat.diagonal().array().max(0.0).min(kMostLeverage).cast<float>();
+}
+
+} // namespace
+
+ResidualJudge::ResidualJudge(const ResidualRows& rows, std::span<const Light> lights, float peak)
+    : scales_(3, lights.size())
+{
+    for (size_t i = 0; i < lights.size(); ++i) {
+        for (int c = 0; c < 3; ++c) {
+            scales_(c, static_cast<Eigen::Index>(i)) = lights[i].irradiance[c] / peak;
+        }
+    }
+    truth_ = shown(rows.observed);
+    const Eigen::ArrayXf kept = 1 - leverages(lights);
+    unseen_ = rows.observed - (rows.observed - rows.predicted) * kept.inverse().matrix().asDiagonal();
+}
+
+Eigen::ArrayXXf ResidualJudge::shown(const Eigen::MatrixXf& rows) const
+{
+    Eigen::ArrayXXf values = rows.array();
+    for (Eigen::Index light = 0; light < values.cols(); ++light) {
+        for (Eigen::Index row = 0; row < values.rows(); ++row) {
+            values(row, light) *= scales_(row % 3, light);
+        }
+    }
+    return values.max(0.0f).min(1.0f);
+}
+
+Eigen::ArrayXd ResidualJudge::errors(const Eigen::MatrixXf& guess) const
+{
+    return (shown(guess) - truth_).square().colwise().mean().cast<double>().transpose();
+}
+
+double meanDecibels(const Eigen::ArrayXd& errors)
+{
+    return -10 * errors.max(kLeastError).log10().mean();
+}
+
+double pooledDecibels(const Eigen::ArrayXd& errors)
+{
+    return -10 * std::log10(std::max(errors.mean(), kLeastError));
+}
+
 namespace {
 
 constexpr double kPenalties[] = {1e-4, 1e-3, 1e-2, 1e-1};
@@ -16,20 +78,21 @@ constexpr double kUsualPenalty = 1e-2;
 constexpr float kUsualTrust = 0.5f;
 constexpr double kLevelQuantile = 2.807; // of the normal distribution at 5 % over the 20 settings compared
 
-struct Candidate {
+struct ResidualCandidate {
     bool hasLayer = true;
     float trust = 1;
     double penalty = 0;
     Eigen::ArrayXd errors; // squared, one a light
 };
 
-std::vector<Candidate> candidatesOf(const ResidualRows& rows, std::span<const Light> lights, const ResidualJudge& judge)
+std::vector<ResidualCandidate> candidatesOf(const ResidualRows& rows, std::span<const Light> lights,
+                                            const ResidualJudge& judge)
 {
     std::vector<glm::vec2> nodes;
     for (const Light& light : lights) {
         nodes.push_back(lightPlanePoint(light.direction));
     }
-    std::vector<Candidate> candidates = {{false, 1, 0, judge.errors(judge.unseen())}};
+    std::vector<ResidualCandidate> candidates = {{false, 1, 0, judge.errors(judge.unseen())}};
     for (const double penalty : kPenalties) {
         const Eigen::MatrixXf weights = leaveOneOutWeights(nodes, penalty).cast<float>().transpose();
         const Eigen::MatrixXf observed = rows.observed * weights, predicted = rows.predicted * weights;
@@ -50,7 +113,7 @@ double studentQuantile(double freedom)
 }
 
 // By how much the mean error surely falls.
-double certainGain(const Candidate& usual, const Candidate& other)
+double certainGain(const ResidualCandidate& usual, const ResidualCandidate& other)
 {
     const Eigen::ArrayXd gain = usual.errors - other.errors;
     const auto count = static_cast<double>(gain.size());
@@ -59,12 +122,14 @@ double certainGain(const Candidate& usual, const Candidate& other)
     return gain.mean() - studentQuantile(freedom) * std::sqrt(variance / count);
 }
 
-const Candidate& bestOf(const std::vector<Candidate>& candidates, bool layersAlone)
+const ResidualCandidate& bestOf(const std::vector<ResidualCandidate>& candidates, bool layersAlone)
 {
-    const auto isUsual = [](const Candidate& c) { return c.penalty == kUsualPenalty && c.trust == kUsualTrust; };
-    const Candidate& usual = *std::find_if(candidates.begin(), candidates.end(), isUsual);
-    const Candidate* best = &usual;
-    for (const Candidate& candidate : candidates) {
+    const auto isUsual = [](const ResidualCandidate& c) {
+        return c.penalty == kUsualPenalty && c.trust == kUsualTrust;
+    };
+    const ResidualCandidate& usual = *std::find_if(candidates.begin(), candidates.end(), isUsual);
+    const ResidualCandidate* best = &usual;
+    for (const ResidualCandidate& candidate : candidates) {
         const bool allowed = candidate.hasLayer || !layersAlone;
         if (allowed && certainGain(usual, candidate) > 0 && candidate.errors.mean() < best->errors.mean()) {
             best = &candidate;
@@ -78,10 +143,10 @@ const Candidate& bestOf(const std::vector<Candidate>& candidates, bool layersAlo
 ResidualFit chooseResidualFit(const ResidualRows& rows, std::span<const Light> lights, const ResidualJudge& judge,
                               ResidualChoice choice)
 {
-    const std::vector<Candidate> candidates = candidatesOf(rows, lights, judge);
+    const std::vector<ResidualCandidate> candidates = candidatesOf(rows, lights, judge);
     const bool forced = choice == ResidualChoice::difference;
-    const Candidate& best = bestOf(candidates, forced);
-    const Candidate& layer = best.hasLayer ? best : bestOf(candidates, true);
+    const ResidualCandidate& best = bestOf(candidates, forced);
+    const ResidualCandidate& layer = best.hasLayer ? best : bestOf(candidates, true);
     ResidualFit fit{.trust = layer.trust,
                     .penalty = layer.penalty,
                     .brdfPsnr = meanDecibels(candidates.front().errors),
@@ -95,6 +160,80 @@ double lossByErrors(const ResidualFit& fit, const Eigen::ArrayXd& errors)
 {
     const auto layer = Eigen::Map<const Eigen::ArrayXd>(fit.layerErrors.data(), errors.size());
     return meanDecibels(layer) - meanDecibels(layer + errors);
+}
+
+namespace {
+
+constexpr int kIterations = 6;
+
+Eigen::MatrixXf orthonormal(const Eigen::MatrixXf& columns)
+{
+    const Eigen::HouseholderQR<Eigen::MatrixXf> qr(columns);
+    return qr.householderQ() * Eigen::MatrixXf::Identity(columns.rows(), columns.cols());
+}
+
+} // namespace
+
+Eigen::MatrixXf principalComponents(const Eigen::MatrixXf& rows, int most)
+{
+    const Eigen::Index count = std::min({Eigen::Index{most}, rows.rows(), rows.cols()});
+    Eigen::MatrixXf basis(rows.cols(), count);
+    uint64_t random = 0;
+    for (Eigen::Index i = 0; i < basis.size(); ++i) { // in [-1, 1)
+        basis(i) = static_cast<float>(static_cast<double>(nextRandom(random) >> 11) * 0x1p-52 - 1);
+    }
+    for (int i = 0; i < kIterations; ++i) {
+        basis = orthonormal(rows.transpose() * (rows * basis));
+    }
+    const Eigen::MatrixXf projected = rows * basis;
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXf> energies(projected.transpose() * projected);
+    basis = basis * energies.eigenvectors().rowwise().reverse();
+    for (Eigen::Index k = 0; k < count; ++k) {
+        Eigen::Index largest = 0;
+        basis.col(k).cwiseAbs().maxCoeff(&largest);
+        basis.col(k) *= basis(largest, k) < 0 ? -1.0f : 1.0f;
+    }
+    return basis;
+}
+
+namespace {
+
+// Adds amounts [pixel] of a component to guesses laid out as ResidualRows is.
+void addComponent(const Eigen::VectorXf& amounts, const Eigen::VectorXf& component, Eigen::MatrixXf& guess)
+{
+    const Eigen::Index lights = guess.cols();
+    for (Eigen::Index light = 0; light < lights; ++light) {
+        for (Eigen::Index pixel = 0; pixel < amounts.size(); ++pixel) {
+            for (Eigen::Index c = 0; c < 3; ++c) {
+                guess(3 * pixel + c, light) += amounts(pixel) * component(c * lights + light);
+            }
+        }
+    }
+}
+
+} // namespace
+
+Eigen::MatrixXf chooseComponents(const ResidualRows& rows, const ResidualJudge& judge, double toleranceDecibels,
+                                 size_t most, ResidualReport& report)
+{
+    const Eigen::MatrixXf residuals = residualsOf(rows, report.fit.trust);
+    const Eigen::MatrixXf basis = principalComponents(residuals, static_cast<int>(most));
+    const Eigen::MatrixXf amounts = residuals * basis;
+    Eigen::MatrixXf captured = report.fit.trust * rows.predicted;
+    Eigen::ArrayXd errors = judge.errors(captured);
+    const auto isEnough = [&] {
+        return toleranceDecibels > 0 ? pooledDecibels(errors) >= toleranceDecibels
+                                     : lossByErrors(report.fit, errors) <= kComponentsLoss;
+    };
+    Eigen::Index count = 0;
+    while (count < basis.cols() && (count == 0 || !isEnough())) {
+        addComponent(amounts.col(count), basis.col(count), captured);
+        errors = judge.errors(captured);
+        ++count;
+    }
+    report.components = static_cast<int>(count);
+    report.capturedPsnr = pooledDecibels(errors);
+    return basis.leftCols(count);
 }
 
 } // namespace nacre

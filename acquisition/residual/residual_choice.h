@@ -1,10 +1,39 @@
 #pragma once
 #include <span>
 
-#include "acquisition/residual/residual_judge.h"
-#include "acquisition/residual/residual_report.h"
+#include <Eigen/Core>
+
+#include "acquisition/residual/residual_estimate.h"
+#include "acquisition/residual/residual_rows.h"
+#include "engine/lights/light.h"
 
 namespace nacre {
+
+// Measures guesses of a sample's radiance as PSNR of radiance does: over `peak`, clipped to [0, 1].
+class ResidualJudge {
+public:
+    ResidualJudge(const ResidualRows& rows, std::span<const Light> lights, float peak);
+
+    // Squared errors, one a light. Guesses: radiance over irradiance, laid out as ResidualRows is.
+    Eigen::ArrayXd errors(const Eigen::MatrixXf& guess) const;
+
+    // What the BRDF would have said of each light without having seen it, to first order: its errors raised by their
+    // leverage on Lambertian normals (Allen, The Relationship between Variable Selection and Data Augmentation, 1974).
+    const Eigen::MatrixXf& unseen() const { return unseen_; }
+
+private:
+    Eigen::ArrayXXf shown(const Eigen::MatrixXf& rows) const;
+
+    Eigen::ArrayXXf scales_; // [channel, light]: of radiance over irradiance to radiance over peak
+    Eigen::ArrayXXf truth_;
+    Eigen::MatrixXf unseen_;
+};
+
+// dB, the mean over the lights: one at the edge, whose errors are many times the others', does not speak for all.
+double meanDecibels(const Eigen::ArrayXd& errors);
+
+// PSNR in dB, the errors of all lights pooled.
+double pooledDecibels(const Eigen::ArrayXd& errors);
 
 // A half-trusted BRDF with moderate smoothing is what is taken unless another setting is better, in the mean over the
 // lights left out, at a level of 5 % shared by all settings (Student's t; Dunn, Multiple Comparisons among Means,
@@ -14,5 +43,20 @@ ResidualFit chooseResidualFit(const ResidualRows& rows, std::span<const Light> l
 
 // dB that errors of another kind, one a light, cost under lights left out.
 double lossByErrors(const ResidualFit& fit, const Eigen::ArrayXd& errors);
+
+// Orthonormal columns, most energetic first, that span the rows of X best in the least-squares sense: its right
+// singular vectors, by subspace iteration (Halko, Martinsson, Tropp, Finding Structure with Randomness, 2011,
+// algorithm 4.4). No mean is subtracted. The same for the same X; signs are such that each column's largest entry is
+// positive.
+Eigen::MatrixXf principalComponents(const Eigen::MatrixXf& rows, int most);
+
+// The first principal components of the sample's residuals under the report's fit: as many as reach `toleranceDecibels`
+// at the captured lights; where that is 0, as many as leave out an error that adds kComponentsLoss or less to the
+// error under lights left out. At least one, at most `most`. Fills the report's components and capturedPsnr. The basis:
+// orthonormal columns over [channel * lights + light].
+Eigen::MatrixXf chooseComponents(const ResidualRows& rows, const ResidualJudge& judge, double toleranceDecibels,
+                                 size_t most, ResidualReport& report);
+
+inline constexpr double kComponentsLoss = 0.2; // dB, the mean over the lights
 
 } // namespace nacre

@@ -5,16 +5,105 @@
 
 #include <fmt/format.h>
 
+#include "acquisition/residual/light_spline.h"
 #include "acquisition/residual/residual_choice.h"
-#include "acquisition/residual/residual_components.h"
-#include "acquisition/residual/residual_encoder.h"
+#include "acquisition/residual/residual_rows.h"
 #include "engine/files/error.h"
 #include "engine/files/measures.h"
+#include "engine/files/parallel_for.h"
 
 namespace nacre {
+
 namespace {
 
-constexpr size_t kFewestLights = 6; // three for the plane through them, as many again to judge it
+// Turns photographs, block by block, into a layer's component pictures of 8 bits, and its basis into splines.
+class ResidualEncoder {
+public:
+    // `sample` sets the range of each component, with a reserve; what lies beyond is clamped. `basis`: orthonormal
+    // columns over [channel * lights + light]. Surface and balls are referred to while the encoder lives.
+    ResidualEncoder(const Surface& surface, const LightBalls& balls, const std::vector<glm::vec2>& nodes,
+                    const ResidualFit& fit, const ResidualRows& sample, Eigen::MatrixXf basis);
+
+    void encode(const Observations& block, int threads);
+
+    ResidualLayer layer;
+
+private:
+    void encodePixels(const Observations& block, std::span<const size_t> places);
+
+    const Surface& surface_;
+    const LightBalls& balls_;
+    Eigen::MatrixXf basis_;
+};
+
+constexpr float kRangeReserve = 0.125f; // of the sample's range, on both sides
+constexpr size_t kEncodedAtOnce = 128;
+
+void setRanges(const Eigen::MatrixXf& amounts, ResidualLayer& layer)
+{
+    for (Eigen::Index k = 0; k < amounts.cols(); ++k) {
+        const float low = amounts.col(k).minCoeff(), high = amounts.col(k).maxCoeff();
+        const float reserve = kRangeReserve * std::max(high - low, 1e-12f);
+        layer.low.push_back(low - reserve);
+        layer.high.push_back(high + reserve);
+    }
+}
+
+// The components' amounts under each captured light, as splines between them.
+std::vector<glm::vec3> splinesOf(const Eigen::MatrixXf& basis, const std::vector<glm::vec2>& nodes, double penalty)
+{
+    const Eigen::MatrixXf factors = splineFactors(nodes, penalty).cast<float>();
+    const auto lights = static_cast<Eigen::Index>(nodes.size());
+    std::vector<glm::vec3> weights;
+    for (Eigen::Index k = 0; k < basis.cols(); ++k) {
+        Eigen::MatrixXf terms(factors.rows(), 3);
+        for (Eigen::Index c = 0; c < 3; ++c) {
+            terms.col(c) = factors * basis.col(k).segment(c * lights, lights);
+        }
+        for (Eigen::Index i = 0; i < terms.rows(); ++i) {
+            weights.emplace_back(terms(i, 0), terms(i, 1), terms(i, 2));
+        }
+    }
+    return weights;
+}
+
+ResidualEncoder::ResidualEncoder(const Surface& surface, const LightBalls& balls, const std::vector<glm::vec2>& nodes,
+                                 const ResidualFit& fit, const ResidualRows& sample, Eigen::MatrixXf basis)
+    : surface_(surface), balls_(balls), basis_(std::move(basis))
+{
+    layer.width = surface.normals.width;
+    layer.height = surface.normals.height;
+    layer.components = static_cast<int>(basis_.cols());
+    layer.trust = fit.trust;
+    layer.nodes = nodes;
+    layer.weights = splinesOf(basis_, nodes, fit.penalty);
+    layer.codes.assign(layer.layers() * layer.pixelCount() * kComponentsPerTexel, 0);
+    setRanges(residualsOf(sample, fit.trust) * basis_, layer);
+}
+
+void ResidualEncoder::encodePixels(const Observations& block, std::span<const size_t> places)
+{
+    const Eigen::MatrixXf amounts = residualsOf(residualRows(block, places, surface_, balls_), layer.trust) * basis_;
+    for (size_t p = 0; p < places.size(); ++p) {
+        for (int k = 0; k < layer.components; ++k) {
+            const float share =
+                (amounts(static_cast<Eigen::Index>(p), k) - layer.low[k]) / (layer.high[k] - layer.low[k]);
+            const size_t texel = (k / kComponentsPerTexel) * layer.pixelCount() + block.pixels[places[p]];
+            layer.codes[texel * kComponentsPerTexel + k % kComponentsPerTexel] =
+                static_cast<uint8_t>(std::lround(255 * std::clamp(share, 0.0f, 1.0f)));
+        }
+    }
+}
+
+void ResidualEncoder::encode(const Observations& block, int threads)
+{
+    const std::vector<size_t> places = shadedPlaces(block, surface_);
+    parallelFor(places.size(), kEncodedAtOnce, threads, [&](size_t first, size_t last) {
+        encodePixels(block, std::span(places).subspan(first, last - first));
+    });
+}
+
+constexpr size_t kFewestResidualLights = 6; // three for the plane through them, as many again to judge it
 constexpr double kLeastHullArea = 1e-3;
 constexpr size_t kMostUnasked = 40; // components: more cost a frame more than the last of them give (docs/results.md)
 constexpr size_t kSmallestBall = 64;
@@ -29,7 +118,7 @@ size_t samplePixels(size_t lights)
 
 std::string whyNoLayer(const std::vector<Light>& lights, const std::vector<glm::vec2>& nodes)
 {
-    if (lights.size() < kFewestLights) {
+    if (lights.size() < kFewestResidualLights) {
         return fmt::format("{} lights are too few to guess between them", lights.size());
     }
     return LightHull(nodes).area() < kLeastHullArea ? "the lights lie on a line" : "";
@@ -124,7 +213,7 @@ EstimatedResidual estimateResidual(const Surface& surface, const ResidualOptions
     report.whyNot = whyNoLayer(lights, nodes);
     if (!report.whyNot.empty() && options.choice == ResidualChoice::difference) {
         throw Error("", "no residual layer can be made: " + report.whyNot,
-                    fmt::format("{} lights or more, spread over a solid angle", kFewestLights));
+                    fmt::format("{} lights or more, spread over a solid angle", kFewestResidualLights));
     }
     const size_t pixels = shadedPixels(surface);
     if (!report.whyNot.empty() || options.choice == ResidualChoice::none || pixels == 0) {

@@ -2,7 +2,84 @@
 
 #include <algorithm>
 
+#include <glm/common.hpp>
+
+#include "engine/scene/ball.h"
+#include "engine/scene/reference.h"
+#include "shared/ball.h"
+
 namespace nacre {
+
+namespace {
+
+const glm::vec3 kCamera(0, 0, 1);
+
+// Side by side, so that one texel answers for all lights.
+std::vector<float> ballsOf(const Surface& surface, const BrdfTable& table, int size, int threads)
+{
+    const size_t lights = surface.lights.size(), texels = static_cast<size_t>(size) * size;
+    std::vector<float> balls(3 * lights * texels);
+    for (size_t i = 0; i < lights; ++i) {
+        const Light unit{surface.lights[i].light.direction, glm::vec3(1)};
+        const Ball ball = makeBall(table, std::span(&unit, 1), size, threads);
+        for (size_t texel = 0; texel < texels; ++texel) {
+            for (size_t c = 0; c < 3; ++c) {
+                balls[(3 * texel + c) * lights + i] = ball.radiance.values[3 * texel + c];
+            }
+        }
+    }
+    return balls;
+}
+
+} // namespace
+
+LightBalls::LightBalls(const Surface& surface, int size, int threads) : surface_(surface), size_(size)
+{
+    if (size > 0) {
+        for (const Material& material : surface.materials) {
+            materials_.push_back(ballsOf(surface, material.table, size, threads));
+        }
+    }
+}
+
+void LightBalls::addTexel(const float* texel, float share, const glm::vec3& albedo, std::span<float> predicted) const
+{
+    const size_t lights = surface_.lights.size();
+    for (size_t c = 0; c < 3; ++c) {
+        const float factor = share * albedo[static_cast<int>(c)];
+        for (size_t i = c * lights; i < (c + 1) * lights; ++i) {
+            predicted[i] += factor * texel[i];
+        }
+    }
+}
+
+void LightBalls::predict(size_t pixel, std::span<float> predicted) const
+{
+    const size_t lights = surface_.lights.size();
+    std::fill(predicted.begin(), predicted.end(), 0.0f);
+    const glm::vec3& normal = surface_.normals.normals[pixel];
+    if (size_ == 0) {
+        for (size_t i = 0; i < lights; ++i) {
+            const Light light{surface_.lights[i].light.direction, glm::vec3(1)};
+            const glm::vec3 radiance = brdfRadiance(surface_, pixel, light, kCamera);
+            for (size_t c = 0; c < 3; ++c) {
+                predicted[c * lights + i] = radiance[static_cast<int>(c)];
+            }
+        }
+    } else if (normal.z > 0) {
+        const std::vector<float>& balls = materials_[surface_.labels[pixel]];
+        const glm::vec3 albedo = albedoFactor(surface_, pixel);
+        const glm::vec2 place =
+            ballTexelFromNormal(normal, static_cast<float>(size_)) * static_cast<float>(size_) - 0.5f;
+        const glm::ivec2 corner = glm::clamp(glm::ivec2(place), glm::ivec2(0), glm::ivec2(size_ - 2));
+        const glm::vec2 t = place - glm::vec2(corner);
+        for (const glm::ivec2 step : {glm::ivec2(0, 0), glm::ivec2(1, 0), glm::ivec2(0, 1), glm::ivec2(1, 1)}) {
+            const glm::vec2 shares = glm::mix(1.0f - t, t, glm::vec2(step));
+            const size_t texel = static_cast<size_t>(corner.y + step.y) * size_ + corner.x + step.x;
+            addTexel(&balls[texel * 3 * lights], shares.x * shares.y, albedo, predicted);
+        }
+    }
+}
 
 ResidualRows residualRows(const Observations& block, std::span<const size_t> places, const Surface& surface,
                           const LightBalls& balls)

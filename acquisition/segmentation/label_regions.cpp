@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <array>
 
-#include "acquisition/segmentation/label_picture.h"
-
 namespace nacre {
 
 namespace {

@@ -6,6 +6,9 @@
 
 namespace nacre {
 
+// Of a pixel that no label is known of.
+inline constexpr uint8_t kUnlabelled = 255;
+
 // Labels of a picture's pixels, row by row. Only pixels of the object (mask != 0) count.
 struct LabelGrid {
     int width = 0;

@@ -13,8 +13,8 @@ namespace nacre {
 
 namespace {
 
-constexpr float kLeastCosine = 0.2f;
-constexpr size_t kFewestLit = 3;
+constexpr float kLeastTraitCosine = 0.2f;
+constexpr size_t kFewestTraitLit = 3;
 constexpr double kDarkest = 0.1, kMatte = 0.55; // shares of the lit observations, by f
 
 struct LitObservation {
@@ -39,7 +39,7 @@ std::vector<LitObservation> litObservations(const Observations& block, const Nor
         const Verdict verdict = normals.verdicts[p * lights.size() + i];
         const float nDotL = glm::dot(n, lights[i].direction);
         const glm::vec3 radiance = block.radianceOf(p)[i] / lights[i].irradiance;
-        const bool isLit = verdict != Verdict::shadow && verdict != Verdict::saturated && nDotL > kLeastCosine;
+        const bool isLit = verdict != Verdict::shadow && verdict != Verdict::saturated && nDotL > kLeastTraitCosine;
         if (isLit && greyOf(radiance) > 0) {
             lit.push_back({greyOf(radiance) / nDotL, radiance, halfAngleDegrees(n, lights[i].direction)});
         }
@@ -90,7 +90,7 @@ void takeLobe(std::span<const LitObservation> lit, PixelTraits& traits)
 // False where too little is lit.
 bool traitsOf(std::span<const LitObservation> lit, PixelTraits& traits)
 {
-    if (lit.size() < kFewestLit) {
+    if (lit.size() < kFewestTraitLit) {
         return false;
     }
     const size_t first = static_cast<size_t>(kDarkest * static_cast<double>(lit.size()));

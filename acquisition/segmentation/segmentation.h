@@ -1,14 +1,40 @@
 #pragma once
+#include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <string>
 #include <vector>
 
 #include "acquisition/capture/capture.h"
-#include "acquisition/segmentation/label_picture.h"
+#include "acquisition/segmentation/label_regions.h"
 #include "acquisition/segmentation/pixel_traits.h"
-#include "acquisition/segmentation/segment_options.h"
 
 namespace nacre {
+
+// Where an object's materials come from. asCaptured: the labels that the capture has, else one material.
+enum class SegmentSource { asCaptured, none, picture, found };
+
+// More labels than this are no labels but a photograph.
+inline constexpr size_t kMostMaterials = 64;
+
+struct SegmentOptions {
+    SegmentSource source = SegmentSource::asCaptured;
+    std::filesystem::path picture; // of the photographs' size
+    size_t count = 0;              // of materials to find; 0: as many as the data show
+};
+
+// "none", "auto", "auto:N", a file, or nothing for asCaptured. Throws Error (usage).
+SegmentOptions segmentOptionsFrom(const std::string& text);
+
+// A picture in which every value or colour is a material, black none.
+struct LabelPicture {
+    std::vector<uint8_t> labels;    // of the capture's pixels: index into names, or kUnlabelled
+    std::vector<std::string> names; // the values of 8 bits ("85"), or colours ("ff0080"), ascending
+};
+
+// Throws Error, naming the file: another size than the photographs', no label on the object, more than
+// kMostMaterials values. Values that stand beside the object alone are dropped.
+LabelPicture loadLabelPicture(const std::filesystem::path& file, const Capture& capture);
 
 struct MaterialRegion {
     std::string name;

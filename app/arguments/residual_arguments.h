@@ -5,7 +5,7 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "acquisition/brdf/model_ladder.h"
-#include "acquisition/residual/residual_report.h"
+#include "acquisition/residual/residual_estimate.h"
 
 namespace nacre {
 

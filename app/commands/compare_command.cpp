@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "acquisition/capture/capture.h"
+#include "acquisition/capture/capture_maps.h"
 #include "app/commands/commands.h"
 #include "engine/files/error.h"
 #include "engine/files/image.h"

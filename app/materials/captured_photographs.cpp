@@ -8,7 +8,7 @@
 #include <glm/geometric.hpp>
 
 #include "acquisition/capture/observations.h"
-#include "acquisition/normals/verdicts.h"
+#include "acquisition/normals/normals.h"
 #include "engine/files/error.h"
 #include "engine/files/measures.h"
 #include "engine/files/parallel_for.h"

@@ -1,4 +1,4 @@
-#include "assets/cloth/sheet_picture.h"
+#include "assets/cloth/draped_cloth.h"
 
 #include <algorithm>
 #include <array>

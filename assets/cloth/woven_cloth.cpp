@@ -1,21 +1,86 @@
 #include "assets/cloth/woven_cloth.h"
 
-#include "assets/cloth/cloth_folds.h"
-#include "assets/cloth/weave_pattern.h"
+#include <algorithm>
+#include <cassert>
+#include <functional>
+#include <utility>
+
 #include "assets/cloth/yarn.h"
-#include "assets/synth/relief.h"
 
 namespace nacre {
+
+namespace {
+
+// Point papers: rows of weft, the uppermost last, # where the warp is on top. Satins are warp-faced, with a counter of
+// 2 (five ends) and 3 (eight ends).
+const std::vector<std::pair<std::string, std::vector<std::string>>>& pointPapers()
+{
+    static const std::vector<std::pair<std::string, std::vector<std::string>>> kPapers = {
+        {"plain", {"#.", ".#"}},
+        {"twill", {"##..", ".##.", "..##", "#..#"}},
+        {"twill31", {"###.", ".###", "#.##", "##.#"}},
+        {"satin5", {".####", "##.##", "####.", "#.###", "###.#"}},
+        {"satin8", {".#######", "###.####", "######.#", "#.######", "####.###", "#######.", "##.#####", "#####.##"}},
+    };
+    return kPapers;
+}
+
+// The run of equal answers about 0; in every weave each yarn changes sides within the repeat.
+WeavePattern::Float floatAbout(int repeat, const std::function<bool(int)>& above)
+{
+    WeavePattern::Float run{0, 1, above(0)};
+    for (; above(run.first - 1) == run.above && run.length < repeat; ++run.length) {
+        --run.first;
+    }
+    for (int next = 1; above(next) == run.above && run.length < repeat; ++next) {
+        ++run.length;
+    }
+    return run;
+}
+
+} // namespace
+
+WeavePattern::WeavePattern(const std::vector<std::string>& rows) : repeat_(static_cast<int>(rows.size()))
+{
+    for (int warp = 0; warp < repeat_; ++warp) {
+        for (int weft = 0; weft < repeat_; ++weft) {
+            onTop_.push_back(rows[weft][warp] == '#');
+        }
+    }
+    for (int a = 0; a < repeat_; ++a) {
+        for (int b = 0; b < repeat_; ++b) {
+            warpFloats_.push_back(floatAbout(repeat_, [&](int step) { return warpIsOnTop(a, b + step); }));
+            weftFloats_.push_back(floatAbout(repeat_, [&](int step) { return !warpIsOnTop(b + step, a); }));
+        }
+    }
+}
+
+WeavePattern WeavePattern::named(const std::string& name)
+{
+    const auto found = std::find_if(pointPapers().begin(), pointPapers().end(),
+                                    [&](const auto& paper) { return paper.first == name; });
+    assert(found != pointPapers().end());
+    return WeavePattern(found->second);
+}
+
+std::vector<std::string> weaveNames()
+{
+    std::vector<std::string> names;
+    for (const auto& paper : pointPapers()) {
+        names.push_back(paper.first);
+    }
+    return names;
+}
+
 namespace {
 
 using glm::dvec2;
 
-constexpr double kPi = std::numbers::pi;
 constexpr double kYarnHalfWidth = 0.45; // of a yarn that nothing presses
 constexpr double kYarnFlatness = 0.46;  // height of a yarn's section over its width
-constexpr double kCrimp = 0.16;     // a yarn's middle rises and falls by so much at crossings
-constexpr double kBulge = 0.09;     // a long float's middle rises further by so much
-constexpr double kSpread = 0.30;    // a long float is wider in its middle by this share
+constexpr double kCrimp = 0.16;         // a yarn's middle rises and falls by so much at crossings
+constexpr double kBulge = 0.09;         // a long float's middle rises further by so much
+constexpr double kSpread = 0.30;        // a long float is wider in its middle by this share
 constexpr double kYarnPliesDepth = 0.035;
 
 // A yarn's place and shape where it crosses the others: along it, crossing k lies at k + 1/2.
@@ -28,12 +93,12 @@ struct YarnState {
 YarnState stateOf(const WeavePattern::Float& before, const WeavePattern::Float& after, double share)
 {
     auto side = [](const WeavePattern::Float& f) { return f.above ? 1.0 : -1.0; };
-    const double blend = 0.5 - 0.5 * std::cos(kPi * share);
+    const double blend = 0.5 - 0.5 * std::cos(std::numbers::pi * share);
     // The float that this point belongs to, and how much of it lies behind, from halfway between crossings.
     const bool first = share < 0.5;
     const WeavePattern::Float& own = first ? before : after;
     const double behind = (first ? share : share - 1.0) + 0.5 - own.first;
-    const double arch = std::sin(kPi * behind / own.length);
+    const double arch = std::sin(std::numbers::pi * behind / own.length);
     const double relaxed = own.above ? arch * arch : 0.0;
     // Even a yarn that shows at one crossing alone swells there, where nothing presses it.
     const double rise = relaxed * (1.0 - 1.0 / own.length), swell = relaxed * (1.0 - 0.55 / own.length);

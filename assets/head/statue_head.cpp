@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <optional>
 
-#include "assets/head/distance_shapes.h"
 #include "assets/head/statue_shape.h"
 #include "engine/files/parallel_for.h"
 
@@ -93,8 +92,8 @@ vec3 cameraFacing(const vec3& n)
 }
 
 // Samples over the picture's shorter side, about: tracing is dear.
-constexpr int kSamples = 768;
-constexpr int kMostPerSide = 4; // samples along a pixel's side
+constexpr int kHeadSamples = 768;
+constexpr int kMostHeadPerSide = 4; // samples along a pixel's side
 
 struct View {
     int width, height, perPixel;
@@ -140,7 +139,7 @@ Target statueHead(int width, int height, const StatueHeadOptions& options, int t
     const Statue statue{static_cast<float>(options.turnDegrees) * kRadians,
                         static_cast<float>(options.bowDegrees) * kRadians};
     const int side = std::min(width, height);
-    const View view{width, height, std::clamp((kSamples + side - 1) / side, 1, kMostPerSide)};
+    const View view{width, height, std::clamp((kHeadSamples + side - 1) / side, 1, kMostHeadPerSide)};
     Target target(width, height, {"skin", "hair", "cloak"});
     parallelFor(height, 4, threads, [&](size_t first, size_t last) {
         for (size_t pixel = first * width; pixel < last * width; ++pixel) {

@@ -6,7 +6,10 @@
 
 #include <glm/geometric.hpp>
 
+#include "engine/files/parallel_for.h"
+
 namespace nacre {
+
 namespace {
 
 using glm::dvec3;
@@ -151,6 +154,67 @@ BumpySolid bumpySolid()
                                 {{0.90, 0.30, 0.32}, -0.09, 0.10},
                                 {{0.42, 0.02, 0.91}, 0.06, 0.02},
                             });
+}
+
+namespace {
+
+constexpr int kPatches = 30;
+
+// The spiral's axis is y, so that its uneven poles lie at the object's rim.
+glm::dvec3 patchCentre(int i)
+{
+    const double y = 1 - (2 * i + 1) / static_cast<double>(kPatches);
+    const double radius = std::sqrt(1 - y * y), azimuth = i * std::numbers::pi * (3 - std::sqrt(5.0));
+    return {radius * std::cos(azimuth), y, radius * std::sin(azimuth)};
+}
+
+} // namespace
+
+size_t patchMaterial(const glm::dvec3& direction, size_t materials)
+{
+    size_t nearest = 0;
+    double closest = -2;
+    for (int i = 0; i < kPatches; ++i) {
+        const double cosine = glm::dot(direction, patchCentre(i));
+        if (cosine > closest) {
+            closest = cosine;
+            nearest = static_cast<size_t>(i);
+        }
+    }
+    return nearest % materials;
+}
+
+glm::dvec2 OrthographicView::planePoint(uint32_t pixel) const
+{
+    double halfSide = 0.5 * std::min(normals.width, normals.height);
+    double x = pixel % normals.width + 0.5;
+    double y = pixel / normals.width + 0.5; // row 0 is the top
+    return {(x - 0.5 * normals.width) / halfSide, (0.5 * normals.height - y) / halfSide};
+}
+
+OrthographicView viewOf(const BumpySolid& solid, int width, int height, int threads)
+{
+    OrthographicView view;
+    view.normals = NormalMap(width, height);
+    view.depth.assign(view.normals.normals.size(), 0.0);
+    view.mask.assign(view.depth.size(), 0);
+    parallelFor(height, 8, threads, [&](size_t first, size_t last) {
+        for (uint32_t pixel = first * width; pixel < last * width; ++pixel) {
+            glm::dvec2 p = view.planePoint(pixel);
+            if (std::optional<double> z = solid.depthTowardsCamera(p.x, p.y)) {
+                view.mask[pixel] = 1;
+                view.depth[pixel] = *z;
+                view.normals.normals[pixel] = glm::vec3(solid.normal({p, *z}));
+                view.normals.confidence[pixel] = 1.0f;
+            }
+        }
+    });
+    for (uint32_t pixel = 0; pixel < view.mask.size(); ++pixel) {
+        if (view.mask[pixel]) {
+            view.seen.push_back(pixel);
+        }
+    }
+    return view;
 }
 
 } // namespace nacre

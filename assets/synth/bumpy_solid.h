@@ -1,8 +1,13 @@
 #pragma once
+#include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <vector>
 
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
+
+#include "engine/surface/normal_map.h"
 
 namespace nacre {
 
@@ -45,5 +50,23 @@ private:
 // Both fill most of a picture whose shorter side spans [-1, 1].
 BumpySolid plainSphere();
 BumpySolid bumpySolid();
+
+// Which of `materials` an object's point wears whose direction from the object's middle is `direction` (unit): patches
+// of some 40 degrees, nearest-point cells around a Fibonacci spiral on the sphere, the materials in turn.
+size_t patchMaterial(const glm::dvec3& direction, size_t materials);
+
+// What a distant camera that looks along -z sees of a solid: pixel centres are sampled, so that every value is exact.
+// The picture's shorter side spans [-1, 1]; x right, y up, the picture's middle is the origin.
+struct OrthographicView {
+    NormalMap normals;          // confidence 1 on the solid
+    std::vector<double> depth;  // z of the surface; 0 beside the solid
+    std::vector<uint8_t> mask;  // 1 on the solid
+    std::vector<uint32_t> seen; // indices of the mask's pixels, ascending
+
+    glm::dvec2 planePoint(uint32_t pixel) const;
+    glm::dvec3 surfacePoint(uint32_t pixel) const { return {planePoint(pixel), depth[pixel]}; }
+};
+
+OrthographicView viewOf(const BumpySolid& solid, int width, int height, int threads);
 
 } // namespace nacre

@@ -3,7 +3,7 @@
 
 #include <glm/vec2.hpp>
 
-#include "assets/synth/hash_random.h"
+#include "engine/files/hash_random.h"
 
 namespace nacre {
 

@@ -1,18 +1,78 @@
 #include "assets/synth/synth_scene.h"
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 
 #include <fmt/format.h>
 
-#include "assets/synth/material_patches.h"
-#include "assets/synth/synth_lights.h"
 #include "engine/files/error.h"
+#include "engine/files/hash_random.h"
 #include "engine/files/measures.h"
 #include "engine/files/parallel_for.h"
 #include "engine/materials/material_specification.h"
 #include "shared/shading.h"
 
 namespace nacre {
+
+SynthOptions demoCapture()
+{
+    SynthOptions options;
+    options.width = 300;
+    options.height = 300;
+    options.sphereSize = 320;
+    options.material = "ggx:diffuse=0.10,0.34,0.30;specular=0.05,0.045,0.035;alpha=0.15"; // celadon glaze
+    options.seed = 7;
+    return options;
+}
+
+namespace {
+
+// Share of the spacing between lights by which each is moved: uneven, as placed by hand, yet none falls on another.
+constexpr double kJitter = 0.3;
+constexpr double kGoldenAngle = std::numbers::pi * (3.0 - 2.2360679774997896);
+
+// Area-preserving: height on the cap and azimuth are both uniform.
+glm::vec3 directionOnCap(double heightFromTop, double azimuth)
+{
+    double z = 1.0 - heightFromTop;
+    double s = std::sqrt(std::max(0.0, 1.0 - z * z));
+    return {s * std::cos(azimuth), s * std::sin(azimuth), z};
+}
+
+} // namespace
+
+std::vector<Light> synthLights(const SynthOptions& options)
+{
+    const double capHeight = 1.0 - std::cos(options.capDegrees * std::numbers::pi / 180.0);
+    const double spread = options.largestIrradiance - options.leastIrradiance;
+    std::vector<Light> lights(options.lights);
+    for (int i = 0; i < options.lights; ++i) {
+        auto random = [&](uint64_t which) { return unitFromHash(hashOf(hashOf(options.seed, i), which)); };
+        double step = (i + 0.5 + kJitter * (random(0) - 0.5)) / options.lights;
+        double azimuth = (i + kJitter * (random(1) - 0.5)) * kGoldenAngle;
+        lights[i].direction = directionOnCap(capHeight * step, azimuth);
+        for (int c = 0; c < 3; ++c) {
+            lights[i].irradiance[c] = static_cast<float>(options.leastIrradiance + spread * random(2 + c));
+        }
+    }
+    return lights;
+}
+
+Image exposed(const Image& radiance, const Sensor& sensor, double seconds, uint64_t photograph)
+{
+    Image picture = radiance;
+    const uint64_t stream = hashOf(sensor.seed, photograph);
+    for (size_t i = 0; i < picture.values.size(); ++i) {
+        double value = radiance.values[i] * sensor.gain * seconds;
+        if (sensor.noise > 0.0) {
+            value += sensor.noise * gaussianFromHash(hashOf(stream, i));
+        }
+        picture.values[i] = static_cast<float>(sensor.clips ? std::clamp(value, 0.0, 1.0) : value);
+    }
+    return picture;
+}
+
 namespace {
 
 // Where the exposure puts the 99.5th percentile of the object's values, so that only the heart of a highlight clips.

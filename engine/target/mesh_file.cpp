@@ -13,7 +13,6 @@
 #include <glm/geometric.hpp>
 
 #include "engine/files/error.h"
-#include "engine/files/temporary_folder.h"
 #include "engine/files/whole_file.h"
 #include "engine/target/ply_size.h"
 

@@ -1,7 +1,7 @@
 #include "evaluation/charts/chart_baking.h"
 
 #include "acquisition/chain/material_albedo.h"
-#include "acquisition/segmentation/label_picture.h"
+#include "acquisition/segmentation/segmentation.h"
 #include "engine/files/stopwatch.h"
 
 namespace nacre {

@@ -7,7 +7,6 @@
 
 #include "acquisition/chain/reconciled_photographs.h"
 #include "acquisition/normals/light_triples.h"
-#include "acquisition/normals/pixel_sample.h"
 #include "engine/files/measures.h"
 #include "engine/files/parallel_for.h"
 #include "engine/files/stopwatch.h"

@@ -4,8 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "acquisition/capture/capture_window.h"
-#include "acquisition/capture/matlab_normals.h"
+#include "acquisition/capture/capture_maps.h"
 #include "acquisition/lights/sphere_outline.h"
 #include "engine/files/measures.h"
 #include "engine/scene/reference.h"

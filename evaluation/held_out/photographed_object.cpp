@@ -4,8 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "acquisition/capture/capture_window.h"
-#include "acquisition/capture/matlab_normals.h"
+#include "acquisition/capture/capture_maps.h"
 #include "acquisition/lights/well_spread_lights.h"
 #include "engine/files/error.h"
 #include "engine/files/measures.h"

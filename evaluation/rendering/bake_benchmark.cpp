@@ -5,7 +5,7 @@
 #include <nanoflann.hpp>
 
 #include "acquisition/brdf/bake.h"
-#include "assets/synth/hash_random.h"
+#include "engine/files/hash_random.h"
 #include "engine/files/parallel_for.h"
 #include "engine/files/stopwatch.h"
 

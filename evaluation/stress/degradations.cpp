@@ -9,7 +9,7 @@
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
-#include "assets/synth/hash_random.h"
+#include "engine/files/hash_random.h"
 #include "shared/glsl.h"
 
 #include "shared/brdf_coords.h"

@@ -8,8 +8,8 @@
 #include <glm/trigonometric.hpp>
 
 #include "acquisition/lights/well_spread_lights.h"
-#include "assets/synth/hash_random.h"
 #include "engine/files/error.h"
+#include "engine/files/hash_random.h"
 #include "evaluation/stress/light_layouts.h"
 
 namespace nacre {

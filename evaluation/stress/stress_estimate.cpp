@@ -1,10 +1,9 @@
 #include "evaluation/stress/stress_estimate.h"
 
+#include "acquisition/capture/observations.h"
 #include "acquisition/checks/height_consistency.h"
 #include "acquisition/lights/lights.h"
-#include "acquisition/lights/sphere_agreement.h"
 #include "acquisition/normals/light_triples.h"
-#include "acquisition/normals/pixel_sample.h"
 
 namespace nacre {
 

@@ -1,7 +1,7 @@
 // Real photographs with published figures.
 #include <gtest/gtest.h>
 
-#include "acquisition/capture/matlab_normals.h"
+#include "acquisition/capture/capture_maps.h"
 #include "acquisition/chain/acquire.h"
 #include "acquisition/lights/sphere_outline.h"
 #include "engine/files/measures.h"

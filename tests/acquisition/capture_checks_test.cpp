@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "acquisition/capture/capture.h"
+#include "acquisition/capture/capture_maps.h"
 #include "engine/lights/light_files.h"
 #include "tests/support/expect_error.h"
 #include "tests/support/temp_folder.h"

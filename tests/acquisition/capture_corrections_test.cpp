@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "acquisition/capture/capture.h"
-#include "acquisition/capture/capture_window.h"
+#include "acquisition/capture/capture_maps.h"
 #include "acquisition/capture/observations.h"
 #include "acquisition/lights/lights.h"
 #include "engine/lights/light_files.h"

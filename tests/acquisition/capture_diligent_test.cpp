@@ -69,7 +69,7 @@ TEST_F(CaptureDiligent, WithoutIntensitiesTheIrradianceIsNotGiven)
 TEST_F(CaptureDiligent, CountsHaveToAgree)
 {
     writeText(folder_ / "light_directions.txt", directionLines(10));
-    expectRefused({"light_intensities.txt", "11 lights", "light_directions.txt has 10"});
+    expectRefused({"light_intensities.txt", "11 lights", "10 directions"});
     writeText(folder_ / "light_intensities.txt",
               "1 1 1\n1 1 1\n1 1 1\n1 1 1\n1 1 1\n1 1 1\n1 1 1\n1 1 1\n1 1 1\n1 1 1\n");
     expectRefused({"light_directions.txt", "10 lights", "filenames.txt has 11 photographs"});

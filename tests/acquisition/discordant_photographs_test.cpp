@@ -1,7 +1,7 @@
 // Photographs that no intensity reconciles with the others.
 #include <gtest/gtest.h>
 
-#include "acquisition/capture/matlab_normals.h"
+#include "acquisition/capture/capture_maps.h"
 #include "acquisition/chain/acquire.h"
 #include "assets/synth/synth_capture.h"
 #include "engine/files/image.h"

@@ -1,11 +1,11 @@
 // Labels as pictures: regions, borders, files.
 #include <gtest/gtest.h>
 
-#include "acquisition/capture/capture_window.h"
-#include "acquisition/segmentation/density_valley.h"
+#include "acquisition/capture/capture_maps.h"
 #include "acquisition/segmentation/label_regions.h"
+#include "acquisition/segmentation/material_tree.h"
 #include "acquisition/segmentation/segmentation.h"
-#include "assets/synth/hash_random.h"
+#include "engine/files/hash_random.h"
 #include "tests/support/expect_error.h"
 #include "tests/support/temp_folder.h"
 

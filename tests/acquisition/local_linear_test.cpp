@@ -8,9 +8,9 @@
 #include "acquisition/brdf/interpolation_choice.h"
 #include "acquisition/brdf/local_linear.h"
 #include "acquisition/brdf/sample_cells.h"
-#include "assets/synth/hash_random.h"
 #include "engine/brdf/brdf_models.h"
 #include "engine/files/error.h"
+#include "engine/files/hash_random.h"
 
 namespace nacre {
 namespace {

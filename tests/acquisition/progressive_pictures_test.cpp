@@ -1,4 +1,4 @@
-#include "acquisition/capture/progressive_pictures.h"
+#include "acquisition/capture/photograph_files.h"
 
 #include <gtest/gtest.h>
 

@@ -4,12 +4,10 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "acquisition/residual/light_balls.h"
 #include "acquisition/residual/light_spline.h"
-#include "acquisition/residual/principal_components.h"
 #include "acquisition/residual/residual_choice.h"
-#include "acquisition/residual/residual_components.h"
 #include "acquisition/residual/residual_estimate.h"
+#include "acquisition/residual/residual_rows.h"
 #include "engine/scene/reference.h"
 #include "engine/surface/residual_layer.h"
 #include "tests/support/expect_error.h"

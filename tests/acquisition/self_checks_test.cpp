@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "acquisition/lights/sphere_agreement.h"
+#include "acquisition/lights/lights.h"
 #include "evaluation/stress/degradations.h"
 #include "evaluation/stress/normal_sweeps.h"
 

@@ -5,7 +5,6 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "acquisition/lights/circle_search.h"
 #include "acquisition/lights/lights.h"
 #include "acquisition/lights/sphere_in_picture.h"
 #include "assets/synth/calibration_spheres.h"

@@ -2,7 +2,7 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "acquisition/capture/matlab_normals.h"
+#include "acquisition/capture/capture_maps.h"
 #include "acquisition/chain/acquire.h"
 #include "assets/synth/synth_capture.h"
 #include "engine/files/measures.h"

@@ -5,8 +5,6 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "assets/synth/orthographic_view.h"
-
 namespace nacre {
 namespace {
 

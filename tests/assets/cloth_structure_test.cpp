@@ -5,12 +5,10 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "assets/cloth/cloth_sheet.h"
+#include "assets/cloth/draped_cloth.h"
 #include "assets/cloth/knit.h"
-#include "assets/cloth/knit_loop.h"
-#include "assets/cloth/weave_pattern.h"
 #include "assets/cloth/woven_cloth.h"
-#include "assets/letters/stroke_letters.h"
+#include "assets/letters/embossed_letters.h"
 
 namespace nacre {
 namespace {

@@ -5,8 +5,8 @@
 
 #include <gtest/gtest.h>
 
-#include "assets/synth/hash_random.h"
 #include "engine/files/error.h"
+#include "engine/files/hash_random.h"
 #include "engine/files/measures.h"
 #include "shared/glsl.h"
 #include "tests/support/expect_error.h"

@@ -9,8 +9,6 @@
 #include "acquisition/brdf/bake.h"
 #include "acquisition/brdf/interpolation.h"
 #include "acquisition/chain/chosen_method.h"
-#include "acquisition/normals/pixel_sample.h"
-#include "assets/synth/synth_lights.h"
 #include "assets/synth/synth_scene.h"
 #include "engine/brdf/brdf_models.h"
 #include "engine/files/measures.h"

@@ -8,8 +8,6 @@
 
 #include "assets/head/statue_head.h"
 #include "assets/synth/bumpy_solid.h"
-#include "assets/synth/material_patches.h"
-#include "assets/synth/orthographic_view.h"
 #include "engine/brdf/brdf_tabulation.h"
 #include "engine/files/image.h"
 #include "engine/files/whole_file.h"

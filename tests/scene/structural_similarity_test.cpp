@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "assets/synth/hash_random.h"
+#include "engine/files/hash_random.h"
 #include "engine/files/measures.h"
 
 namespace nacre {

@@ -1,18 +1,139 @@
-// Reflectance transformation imaging: one .lp file, a count and then "file x y z", or names alone, a line, beside its
-// photographs or in a folder above them. The names often carry folders of another machine, so photographs are found by
-// name.
+#include "acquisition/capture/capture_layouts.h"
+
 #include <algorithm>
 #include <set>
 
 #include <fmt/format.h>
 
-#include "acquisition/capture/capture_layouts.h"
 #include "acquisition/capture/picture_files.h"
 #include "engine/files/error.h"
 #include "engine/files/text_files.h"
 
 namespace nacre {
 namespace fs = std::filesystem;
+
+Photograph photographOf(const fs::path& file)
+{
+    return {file.filename().string(), {Exposure{file}}};
+}
+
+// The University of Washington's photometric-stereo sets: NAME.0.tga, NAME.1.tga, ... and NAME.mask.tga. Lights come
+// from spheres, or from a file that the user names.
+
+namespace {
+
+constexpr const char* kSphereFolder =
+    "one sphere in a folder, as NAME.mask.* and NAME.0.*, NAME.1.*, ..., or as pictures of "
+    "which one has \"mask\" in its name";
+
+std::vector<Photograph> photographsOf(const std::vector<fs::path>& files)
+{
+    std::vector<Photograph> photographs;
+    std::transform(files.begin(), files.end(), std::back_inserter(photographs), photographOf);
+    return photographs;
+}
+
+} // namespace
+
+std::optional<LayoutContents> readUwLayout(const fs::path& folder)
+{
+    const auto pictures = findNumberedPictures(folder);
+    if (!pictures) {
+        return std::nullopt;
+    }
+    LayoutContents contents;
+    contents.capture.layout = CaptureLayout::uw;
+    contents.capture.name = pictures->name;
+    contents.capture.photographs = photographsOf(pictures->photographs);
+    contents.listing = folder;
+    contents.masks = pictures->masks;
+    return contents;
+}
+
+SpherePhotographs readSphereFolder(const fs::path& folder)
+{
+    if (!fs::is_directory(folder)) {
+        throw Error(folder, fs::exists(folder) ? "is no folder" : "does not exist", kSphereFolder);
+    }
+    std::vector<fs::path> photographs;
+    std::vector<fs::path> masks;
+    if (const auto numbered = findNumberedPictures(folder); numbered && !numbered->masks.empty()) {
+        photographs = numbered->photographs;
+        masks = numbered->masks;
+    } else {
+        for (const fs::path& file : picturesIn(folder)) {
+            (isNamedMask(file) ? masks : photographs).push_back(file);
+        }
+    }
+    if (masks.size() != 1 || photographs.empty()) {
+        throw Error(folder,
+                    fmt::format("holds {} photographs and {} masks of a sphere", photographs.size(), masks.size()),
+                    kSphereFolder);
+    }
+    SpherePhotographs sphere;
+    sphere.source = folder;
+    sphere.photographs = photographsOf(photographs);
+    sphere.maskFile = masks[0];
+    return sphere;
+}
+
+// Shi et al., A Benchmark Dataset and Evaluation for Non-Lambertian and Uncalibrated Photometric Stereo (DiLiGenT),
+// 2016: filenames.txt lists the photographs, light_directions.txt their lights in the camera frame (x right, y up,
+// z to the camera), light_intensities.txt the lights' RGB irradiances.
+
+namespace {
+
+constexpr const char* kDirectionsFile = "light_directions.txt";
+constexpr const char* kIntensitiesFile = "light_intensities.txt";
+
+LightFile loadDiligentLights(const fs::path& folder)
+{
+    LightFile result;
+    for (const glm::vec3& direction : loadDirections(folder / kDirectionsFile)) {
+        result.lights.push_back({direction, glm::vec3(1)});
+    }
+    if (fs::exists(folder / kIntensitiesFile)) {
+        addIrradiances(result, folder / kIntensitiesFile);
+    }
+    return result;
+}
+
+} // namespace
+
+std::optional<LayoutContents> readDiligentLayout(const fs::path& folder)
+{
+    const fs::path listing = folder / "filenames.txt";
+    if (!fs::exists(listing)) {
+        return std::nullopt;
+    }
+    LayoutContents contents;
+    contents.capture.layout = CaptureLayout::diligent;
+    contents.listing = listing;
+    for (const std::string& name : loadTextLines(listing)) {
+        if (!fs::exists(folder / name)) {
+            throw Error(folder / name, "does not exist", "a photograph, as filenames.txt lists it");
+        }
+        contents.capture.photographs.push_back(photographOf(folder / name));
+    }
+    if (fs::exists(folder / kDirectionsFile)) {
+        assignLights(contents, loadDiligentLights(folder), folder / kDirectionsFile);
+    }
+    for (const fs::path& file : picturesIn(folder)) {
+        if (lowerCase(file.stem().string()) == "mask") {
+            contents.masks.push_back(file);
+        }
+    }
+    for (const char* truth : {"Normal_gt.png", "Normal_gt.mat"}) { // the last one wins: it is not rounded
+        if (fs::exists(folder / truth)) {
+            contents.capture.truthNormals = folder / truth;
+        }
+    }
+    return contents;
+}
+
+// Reflectance transformation imaging: one .lp file, a count and then "file x y z", or names alone, a line, beside its
+// photographs or in a folder above them. The names often carry folders of another machine, so photographs are found by
+// name.
 
 namespace {
 
@@ -73,16 +194,16 @@ fs::path findPhotograph(const PicturePool& pool, const fs::path& lp, const fs::p
     if (name.is_relative() && fs::is_regular_file(folder / name, ignored)) {
         return folder / name;
     }
-    fs::path found = findInPool(pool, lp, [&](const fs::path& file) { return file.filename() == name.filename(); });
-    if (found.empty()) {
-        const std::string wanted = lowerCase(name.filename().string());
-        found = findInPool(pool, lp, [&](const fs::path& f) { return lowerCase(f.filename().string()) == wanted; });
+    using Part = std::string (*)(const fs::path&);
+    for (const Part part : {Part([](const fs::path& file) { return file.filename().string(); }),
+                            Part([](const fs::path& file) { return lowerCase(file.filename().string()); }),
+                            Part([](const fs::path& file) { return lowerCase(file.stem().string()); })}) {
+        const fs::path found = findInPool(pool, lp, [&](const fs::path& file) { return part(file) == part(name); });
+        if (!found.empty()) {
+            return found;
+        }
     }
-    if (found.empty()) {
-        const std::string wanted = lowerCase(name.stem().string());
-        found = findInPool(pool, lp, [&](const fs::path& f) { return lowerCase(f.stem().string()) == wanted; });
-    }
-    return found;
+    return {};
 }
 
 std::vector<fs::path> lpFilesIn(const fs::path& folder)

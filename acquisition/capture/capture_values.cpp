@@ -1,11 +1,18 @@
+// How the numbers in the files relate to radiance: sizes, transfer curve, exposure times, offset.
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <span>
+#include <vector>
 
 #include <fmt/format.h>
 
 #include "acquisition/capture/capture_layouts.h"
-#include "acquisition/capture/capture_window.h"
+#include "acquisition/capture/capture_maps.h"
+#include "acquisition/capture/exposure_merge.h"
+#include "acquisition/capture/observations.h"
 #include "engine/files/error.h"
+#include "engine/files/measures.h"
 
 namespace nacre {
 
@@ -129,6 +136,88 @@ void examineHeaders(LayoutContents& contents, const std::optional<TransferCurve>
     if (!contents.exposuresGiven) {
         takeExifTimes(all);
     }
+}
+
+namespace {
+
+struct OffsetEstimate {
+    float value = 0;    // 0 where the photographs show none
+    std::string reason; // for the user
+};
+
+// Quantiles over the pixels of their least values. The lowest is above single dead pixels, the highest still among
+// shadows where an object has them over a tenth of its pixels.
+constexpr double kLow = 0.01;
+constexpr double kMiddle = 0.05;
+constexpr double kHigh = 0.1;
+// The high and the low one agree: their difference is a small share of the offset itself.
+constexpr float kLargestSpread = 0.25f;
+// Of the brightest values: less is within what noise and rounding leave in a shadow.
+constexpr float kLeastOffsetShare = 0.01f;
+
+// Every exposure a photograph of its own, without times and offset: values as the files have them.
+Capture withPlainExposures(const Capture& capture)
+{
+    Capture plain = capture;
+    plain.offset = 0;
+    plain.ambient.reset();
+    plain.photographs.clear();
+    for (const Photograph& photograph : capture.photographs) {
+        for (const Exposure& exposure : photograph.exposures) {
+            plain.photographs.push_back({photograph.name, {{exposure.file, 1.0}}});
+        }
+    }
+    return plain;
+}
+
+// The constant that every value carries (black level, stray light), where shadows show it: a pixel's least value over
+// all photographs is the offset where any of them leaves it in shadow, so that the low quantiles of these least values
+// agree, while without an offset or without shadows they spread down to 0. Reads every photograph once.
+OffsetEstimate estimateOffset(const Capture& capture)
+{
+    std::vector<float> least;
+    std::vector<float> greatest;
+    ObservationReader reader(withPlainExposures(capture));
+    for (Observations block; reader.next(block);) {
+        for (size_t p = 0; p < block.pixels.size(); ++p) {
+            float low = std::numeric_limits<float>::infinity();
+            float high = -low;
+            for (const glm::vec3& value : block.radianceOf(p)) {
+                low = std::min(low, channelMean(value));
+                high = std::max(high, channelMean(value));
+            }
+            least.push_back(low);
+            greatest.push_back(high);
+        }
+    }
+    const float low = quantile(least, kLow);
+    const float middle = quantile(least, kMiddle);
+    const float high = quantile(least, kHigh);
+    const float bright = quantile(greatest, 0.99);
+    const std::string measured = fmt::format("the least values of 1, 5 and 10 % of the pixels are below {:.4f}, {:.4f} "
+                                             "and {:.4f}",
+                                             low, middle, high);
+    if (!(middle > kLeastOffsetShare * bright)) {
+        return {0, "none: " + measured + ", black against the brightest"};
+    }
+    if (high - low > kLargestSpread * middle) {
+        return {0, "none: " + measured + ", which do not agree"};
+    }
+    return {low, "estimated: " + measured};
+}
+
+} // namespace
+
+void applyOffset(Capture& capture, const OffsetChoice& choice)
+{
+    if (!choice.automatic) {
+        capture.offset = choice.value;
+        capture.offsetSource = choice.value > 0 ? "given" : "";
+        return;
+    }
+    const OffsetEstimate estimate = estimateOffset(capture);
+    capture.offset = estimate.value;
+    capture.offsetSource = estimate.reason;
 }
 
 } // namespace nacre

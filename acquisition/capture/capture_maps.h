@@ -8,6 +8,10 @@
 
 namespace nacre {
 
+// A mask picture: inside where the brightest channel is above one half. Throws Error where it is empty or its size
+// differs from width x height (0: any).
+std::vector<uint8_t> loadMask(const std::filesystem::path& file, int width, int height);
+
 // What of the files' pixels a capture takes in, once the files' size is known: sets width and height. Throws Error,
 // naming `listing`, where the window is not inside.
 void fitWindow(Capture& capture, int fileWidth, int fileHeight, const std::filesystem::path& listing);
@@ -27,5 +31,9 @@ std::vector<uint8_t> windowedLabels(const std::vector<uint8_t>& labels, const Ca
 // Normals of the files' size to the capture's: a box has the mean direction where it has normals all over, else none.
 // Throws Error, naming `file`, where the size differs from the photographs'.
 NormalMap windowedNormals(const NormalMap& normals, const Capture& capture, const std::filesystem::path& file);
+
+// The true normals of a benchmark: MATLAB `.mat` with an h x w x 3 array (DiLiGenT's `Normal_gt`), or what
+// loadNormalMap reads. Zero vectors are no data.
+NormalMap loadTrueNormals(const std::filesystem::path& file);
 
 } // namespace nacre

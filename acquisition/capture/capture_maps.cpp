@@ -1,16 +1,21 @@
-#include "acquisition/capture/capture_window.h"
+#include "acquisition/capture/capture_maps.h"
 
 #include <algorithm>
+#include <cmath>
+#include <memory>
 #include <string_view>
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
+#include <matio.h>
 
 #include "engine/files/error.h"
 
 namespace nacre {
 
 namespace {
+
+constexpr int kMaskRowsAtOnce = 64; // few enough for memory, enough to make up for what each call costs
 
 // visit(pixel of the capture, pixel of the file) for every pixel of a box, box by box.
 template <class Visit> void forEachBoxPixel(const Capture& capture, Visit&& visit)
@@ -27,6 +32,33 @@ template <class Visit> void forEachBoxPixel(const Capture& capture, Visit&& visi
 }
 
 } // namespace
+
+std::vector<uint8_t> loadMask(const fs::path& file, int width, int height)
+{
+    // Masks hold shape, not light: no curve. By rows, since a mask is as large as its photographs.
+    ImageRows rows(file, TransferCurve::linear);
+    const ImageHeader& header = rows.header();
+    if (width != 0 && (header.width != width || header.height != height)) {
+        throw Error(file, fmt::format("is {} x {}", header.width, header.height),
+                    fmt::format("{} x {} as the photographs", width, height));
+    }
+    const int channels = rows.channels();
+    std::vector<uint8_t> mask;
+    mask.reserve(static_cast<size_t>(header.width) * header.height);
+    std::vector<float> values;
+    for (int y = 0; y < header.height; y += kMaskRowsAtOnce) {
+        const int last = std::min(y + kMaskRowsAtOnce, header.height);
+        values.resize(static_cast<size_t>(last - y) * header.width * channels);
+        rows.read(y, last, values);
+        for (auto pixel = values.begin(); pixel != values.end(); pixel += channels) {
+            mask.push_back(*std::max_element(pixel, pixel + channels) > 0.5f ? 1 : 0);
+        }
+    }
+    if (std::find(mask.begin(), mask.end(), uint8_t{1}) == mask.end()) {
+        throw Error(file, "is an empty mask", "the object brighter than one half");
+    }
+    return mask;
+}
 
 void fitWindow(Capture& capture, int fileWidth, int fileHeight, const std::filesystem::path& listing)
 {
@@ -105,6 +137,67 @@ NormalMap windowedNormals(const NormalMap& normals, const Capture& capture, cons
         result.confidence[i] = known ? result.confidence[i] : 0;
     }
     return result;
+}
+
+namespace {
+
+using MatFile = std::unique_ptr<mat_t, decltype(&Mat_Close)>;
+using MatVariable = std::unique_ptr<matvar_t, decltype(&Mat_VarFree)>;
+
+double valueAt(const matvar_t& variable, size_t index)
+{
+    return variable.class_type == MAT_C_SINGLE ? static_cast<const float*>(variable.data)[index]
+                                               : static_cast<const double*>(variable.data)[index];
+}
+
+bool isNormalArray(const matvar_t& variable)
+{
+    return variable.rank == 3 && variable.dims[2] == 3 &&
+           (variable.class_type == MAT_C_DOUBLE || variable.class_type == MAT_C_SINGLE) && variable.data;
+}
+
+// Column-major: index = row + height * (column + width * channel).
+NormalMap mapOf(const matvar_t& variable)
+{
+    const size_t height = variable.dims[0], width = variable.dims[1];
+    NormalMap map(static_cast<int>(width), static_cast<int>(height));
+    for (size_t y = 0; y < height; ++y) {
+        for (size_t x = 0; x < width; ++x) {
+            glm::dvec3 n;
+            for (int c = 0; c < 3; ++c) {
+                n[c] = valueAt(variable, y + height * (x + width * c));
+            }
+            const double size = glm::length(n);
+            if (std::isfinite(size) && size > 0.5) {
+                map.normals[y * width + x] = glm::vec3(n / size);
+                map.confidence[y * width + x] = 1;
+            }
+        }
+    }
+    return map;
+}
+
+} // namespace
+
+NormalMap loadTrueNormals(const std::filesystem::path& file)
+{
+    if (file.extension() != ".mat") {
+        return loadNormalMap(file);
+    }
+    const MatFile mat(Mat_Open(file.c_str(), MAT_ACC_RDONLY), &Mat_Close);
+    const char* expected = "a MATLAB file with a real h x w x 3 array of normals";
+    if (!mat) {
+        throw Error(file, "cannot be read", expected);
+    }
+    while (true) {
+        const MatVariable variable(Mat_VarReadNext(mat.get()), &Mat_VarFree);
+        if (!variable) {
+            throw Error(file, "holds no normals", expected);
+        }
+        if (isNormalArray(*variable)) {
+            return mapOf(*variable);
+        }
+    }
 }
 
 } // namespace nacre

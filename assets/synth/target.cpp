@@ -1,4 +1,4 @@
-#include "assets/synth/relief.h"
+#include "assets/synth/target.h"
 
 #include <algorithm>
 #include <array>
@@ -9,6 +9,7 @@
 #include "engine/files/parallel_for.h"
 
 namespace nacre {
+
 namespace {
 
 using glm::dvec2;

@@ -1,0 +1,218 @@
+// Which photographs count, which light each has, and the calibration spheres that the user names.
+#include <algorithm>
+#include <charconv>
+#include <map>
+#include <numeric>
+#include <set>
+#include <string_view>
+
+#include <fmt/format.h>
+
+#include "acquisition/capture/capture_layouts.h"
+#include "engine/files/error.h"
+#include "engine/files/text_files.h"
+
+namespace nacre {
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr std::string_view kPrefix = "in-picture:";
+
+bool isNamed(const Photograph& photograph, const std::string& name)
+{
+    const std::string own = lowerCase(photograph.name);
+    return lowerCase(name) == own || lowerCase(name) == fs::path(own).stem().string();
+}
+
+void markSkipped(std::vector<Photograph>& photographs, const std::vector<std::string>& names)
+{
+    for (const std::string& name : names) {
+        size_t found = 0;
+        for (Photograph& photograph : photographs) {
+            if (isNamed(photograph, name)) {
+                photograph.skip = true;
+                ++found;
+            }
+        }
+        if (found != 1) {
+            throw Error("", fmt::format("--skip {} names {} photographs", name, found),
+                        fmt::format("one, such as {}", photographs[0].name), Error::kUsage);
+        }
+    }
+}
+
+void dropSkipped(Capture& capture)
+{
+    std::vector<size_t> kept;
+    for (size_t i = 0; i < capture.photographs.size(); ++i) {
+        if (capture.photographs[i].skip) {
+            capture.skipped.push_back(capture.photographs[i].name);
+        } else {
+            kept.push_back(i);
+        }
+    }
+    capture = selectPhotographs(capture, kept);
+}
+
+// Names agree without folders, which may be another machine's, extension and case.
+std::string comparedName(std::string name)
+{
+    std::replace(name.begin(), name.end(), '\\', '/');
+    return lowerCase(fs::path(name).stem().string());
+}
+
+std::optional<SphereInPicture> sphereInPicture(const std::string& option, const fs::path& specification)
+{
+    const std::string& text = specification.native();
+    if (!text.starts_with(kPrefix)) {
+        return std::nullopt;
+    }
+    SphereInPicture sphere;
+    const char* at = text.data() + kPrefix.size();
+    const char* const end = text.data() + text.size();
+    bool understood = true;
+    for (int* number : {&sphere.x, &sphere.y, &sphere.width, &sphere.height}) {
+        if (number != &sphere.x) {
+            understood = understood && at != end && *at++ == ',';
+        }
+        const auto [next, problem] = std::from_chars(at, end, *number);
+        understood =
+            understood && problem == std::errc() && *number >= (number == &sphere.x || number == &sphere.y ? 0 : 1);
+        at = next;
+    }
+    if (understood && at != end && *at == ',') {
+        sphere.mask = std::string(at + 1, end);
+        at = end;
+        understood = !sphere.mask.empty();
+    }
+    if (!understood || at != end) {
+        throw Error("", fmt::format("{} {} is not understood", option, text),
+                    "in-picture:X,Y,W,H in whole pixels of the photographs, and a mask after a comma if you like",
+                    Error::kUsage);
+    }
+    return sphere;
+}
+
+// A sphere of which every photograph of the object is one.
+SpherePhotographs photographsOfSphere(const SphereInPicture& sphere, const Capture& capture)
+{
+    SpherePhotographs photographs;
+    photographs.source = fmt::format("the sphere in the picture at {}", rectangleOf(sphere));
+    photographs.photographs = capture.photographs;
+    photographs.inPicture = sphere;
+    return photographs;
+}
+
+} // namespace
+
+Capture selectPhotographs(const Capture& capture, const std::vector<size_t>& chosen)
+{
+    Capture result = capture;
+    result.photographs = selectItems(capture.photographs, chosen);
+    result.lights = selectItems(capture.lights, chosen);
+    for (std::optional<SpherePhotographs>* sphere : {&result.mirrorSphere, &result.diffuseSphere}) {
+        if (*sphere) {
+            (*sphere)->photographs = selectItems((*sphere)->photographs, chosen);
+        }
+    }
+    return result;
+}
+
+std::vector<size_t> lightsByName(const LightFile& lights, const std::vector<Photograph>& photographs,
+                                 const fs::path& file)
+{
+    std::map<std::string, size_t> lightOf;
+    for (size_t i = 0; i < lights.photographs.size(); ++i) {
+        lightOf.emplace(comparedName(lights.photographs[i]), i);
+    }
+    std::vector<size_t> order;
+    const Photograph* unnamed = nullptr;
+    for (const Photograph& photograph : photographs) {
+        const auto named = lightOf.find(comparedName(photograph.name));
+        if (named != lightOf.end()) {
+            order.push_back(named->second);
+        } else if (!unnamed) {
+            unnamed = &photograph;
+        }
+    }
+    const bool repeated = std::set(order.begin(), order.end()).size() != order.size();
+    if (repeated || lightOf.size() != lights.photographs.size()) {
+        return {};
+    }
+    if (unnamed && !order.empty()) {
+        throw Error(
+            file,
+            fmt::format("names {} of {} photographs, but not {}", order.size(), photographs.size(), unnamed->name),
+            "a light for each photograph");
+    }
+    return order;
+}
+
+void assignLights(LayoutContents& contents, const LightFile& lights, const fs::path& file)
+{
+    Capture& capture = contents.capture;
+    if (lights.lights.size() != capture.photographs.size()) {
+        throw Error(file,
+                    fmt::format("has {} lights, {} has {} photographs", lights.lights.size(), contents.listing.string(),
+                                capture.photographs.size()),
+                    "one light for each photograph");
+    }
+    std::vector<size_t> order = lightsByName(lights, capture.photographs, file);
+    capture.lightsOrder = order.empty() ? "matched to the photographs by order" : "matched to the photographs by name";
+    if (order.empty()) {
+        order.resize(lights.lights.size());
+        std::iota(order.begin(), order.end(), size_t{0});
+    }
+    capture.lights.clear();
+    std::transform(order.begin(), order.end(), std::back_inserter(capture.lights),
+                   [&](size_t index) { return lights.lights[index]; });
+    capture.lightsSource = file.string();
+    capture.irradianceGiven = lights.irradianceGiven;
+}
+
+void addIrradiances(LightFile& lights, const fs::path& file)
+{
+    const std::vector<glm::vec3> irradiances = loadIrradiances(file);
+    if (irradiances.size() != lights.lights.size()) {
+        throw Error(file,
+                    fmt::format("has {} lights, there are {} directions", irradiances.size(), lights.lights.size()),
+                    "as many");
+    }
+    for (size_t i = 0; i < irradiances.size(); ++i) {
+        lights.lights[i].irradiance = irradiances[i];
+    }
+    lights.irradianceGiven = true;
+}
+
+void skipAndAssignRig(LayoutContents& contents, const std::vector<std::string>& skip, const fs::path& rigFile)
+{
+    markSkipped(contents.capture.photographs, skip);
+    const std::optional<LightFile> rig = rigFile.empty() ? std::nullopt : std::optional(loadLightFile(rigFile));
+    const bool hasAll = rig && rig->lights.size() == contents.capture.photographs.size();
+    if (hasAll) {
+        assignLights(contents, *rig, rigFile);
+    }
+    dropSkipped(contents.capture);
+    if (rig && !hasAll) {
+        assignLights(contents, *rig, rigFile);
+    }
+}
+
+std::string rectangleOf(const SphereInPicture& sphere)
+{
+    return fmt::format("{},{},{},{}", sphere.x, sphere.y, sphere.width, sphere.height);
+}
+
+SpherePhotographs namedSphere(const char* option, const fs::path& specification, LayoutContents& contents)
+{
+    const std::optional<SphereInPicture> sphere = sphereInPicture(option, specification);
+    if (!sphere) {
+        return readSphereFolder(specification);
+    }
+    std::error_code ignored;
+    std::erase_if(contents.masks, [&](const fs::path& mask) { return fs::equivalent(mask, sphere->mask, ignored); });
+    return photographsOfSphere(*sphere, contents.capture);
+}
+
+} // namespace nacre
