@@ -204,7 +204,7 @@ std::string rectangleOf(const SphereInPicture& sphere)
     return fmt::format("{},{},{},{}", sphere.x, sphere.y, sphere.width, sphere.height);
 }
 
-SpherePhotographs namedSphere(const char* option, const fs::path& specification, LayoutContents& contents)
+SpherePhotographs namedSphere(const std::string& option, const fs::path& specification, LayoutContents& contents)
 {
     const std::optional<SphereInPicture> sphere = sphereInPicture(option, specification);
     if (!sphere) {
