@@ -264,7 +264,9 @@ void addBenchCommand(CLI::App& app)
     CLI::App* command = app.add_subcommand("bench", "What frames cost on this machine, against their floors");
     command->add_option("--size", arguments->sizes, "WxH, repeatable (default: 1280x720 1920x1080 3840x2160)");
     command->add_option("--lights", arguments->lights, "Numbers of lights (default: 1 4 16 256)");
-    command->add_option("--repeats", arguments->repeats, "Of which the median is told; slow ones a fifth")
+    command
+        ->add_option("--repeats", arguments->repeats,
+                     "Number of frames behind each median; a fifth of it for slow ones")
         ->capture_default_str();
     command->add_option("--most-direct-lights", arguments->mostDirectLights, "The direct path with more is left out")
         ->capture_default_str();
