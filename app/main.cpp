@@ -3,6 +3,8 @@
 #include <exception>
 #include <filesystem>
 #include <new>
+#include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -14,7 +16,7 @@ namespace {
 
 constexpr int kInternalError = 70; // EX_SOFTWARE of sysexits.h
 
-// CLI11's sentence as one line of ours, which names the command whose help has the answer.
+// CLI11's message as one line of the program's own form, with the command whose help answers it.
 nacre::Error usageError(const CLI::App& app, const CLI::ParseError& e)
 {
     const auto commands = app.get_subcommands();
@@ -48,30 +50,36 @@ void addTexts(CLI::App& app)
     print("--man-page", [&app] { return nacre::manPage(app, NACRE_VERSION); });
 }
 
+// In the order and under the headings of --help.
+void addCommands(CLI::App& app)
+{
+    using Adders = std::vector<void (*)(CLI::App&)>;
+    const std::pair<const char*, Adders> groups[] = {
+        {"Measure",
+         {nacre::addAcquireCommand, nacre::addNormalsCommand, nacre::addCalibrateCommand, nacre::addMaterialsCommand,
+          nacre::addBrdfCommand, nacre::addExportCommand}},
+        {"Render", {nacre::addRenderCommand, nacre::addTransferCommand, nacre::addTargetCommand}},
+        {"Look", {nacre::addViewCommand, nacre::addInfoCommand}},
+        {"Judge",
+         {nacre::addEvaluateCommand, nacre::addChartCommand, nacre::addStressCommand, nacre::addBenchCommand,
+          nacre::addCompareCommand}},
+        {"Make", {nacre::addSynthCommand, nacre::addDemoCommand}},
+    };
+    for (const auto& [heading, adders] : groups) {
+        for (const auto add : adders) {
+            add(app);
+            app.get_subcommands({}).back()->group(heading);
+        }
+    }
+}
+
 int runCommandLine(int argc, char** argv)
 {
     CLI::App app("Nacre measures materials from photographs under a moving light and relights them.");
     app.set_version_flag("--version", "nacre " NACRE_VERSION);
     app.require_subcommand(1);
     addTexts(app);
-    nacre::addAcquireCommand(app);
-    nacre::addNormalsCommand(app);
-    nacre::addCalibrateCommand(app);
-    nacre::addRenderCommand(app);
-    nacre::addViewCommand(app);
-    nacre::addTargetCommand(app);
-    nacre::addMaterialsCommand(app);
-    nacre::addTransferCommand(app);
-    nacre::addSynthCommand(app);
-    nacre::addInfoCommand(app);
-    nacre::addBrdfCommand(app);
-    nacre::addCompareCommand(app);
-    nacre::addExportCommand(app);
-    nacre::addEvaluateCommand(app);
-    nacre::addChartCommand(app);
-    nacre::addStressCommand(app);
-    nacre::addDemoCommand(app);
-    nacre::addBenchCommand(app);
+    addCommands(app);
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& e) {

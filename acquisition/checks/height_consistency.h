@@ -12,7 +12,7 @@ namespace nacre {
 // Whether normals are those of a height, which lights that all err alike undo: dp/dy = dq/dx, p = n.x/n.z, q = n.y/n.z.
 struct HeightConsistency {
     size_t places = 0; // pixels with neighbours on all sides
-    // Mean |dp/dy - dq/dx| over the same with y turned around: well below 1, above it where y is upside down.
+    // Mean |dp/dy - dq/dx| over the same with y reversed: well below 1, above it where y is upside down.
     double flippedRatio = 0;
     // How far all normals have to be turned about x and y to be those of a height. A height tilted as a whole stays
     // one; what tells the turn is its other half, n.z growing with n.x and n.y.

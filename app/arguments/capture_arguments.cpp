@@ -12,6 +12,12 @@ namespace nacre {
 
 namespace {
 
+// Headings of --help below the options that most need.
+constexpr const char* kPhotographs = "Photographs";
+constexpr const char* kLights = "Lights";
+constexpr const char* kNormals = "Normals";
+constexpr const char* kRunning = "Running";
+
 // One value for all channels, or three.
 glm::vec3 reflectanceOf(const std::vector<float>& values)
 {
@@ -53,67 +59,91 @@ void CalibrationArguments::addTo(CLI::App& command)
 {
     command.add_option("CAPTURE", folder, "Folder of photographs")->required();
     command
-        .add_option("--mirror-sphere", capture.mirrorSphere,
-                    "Light directions: folder of a mirror sphere's photographs, or where it stands in the capture's "
-                    "own, with a mask or found")
+        .add_option(
+            "--mirror-sphere", capture.mirrorSphere,
+            "Mirror sphere, for directions of the lights: folder of its photographs, or box in the capture's own")
         ->option_text("DIR|in-picture:X,Y,W,H[,MASK]");
     command
         .add_option("--diffuse-sphere", capture.diffuseSphere,
-                    "Intensities: folder of a diffuse sphere's photographs, or where it stands in the capture's own")
+                    "Diffuse sphere, for intensities of the lights: folder of its photographs, or box in the capture's "
+                    "own")
         ->option_text("DIR|in-picture:X,Y,W,H[,MASK]");
+    command.add_option("--rig", capture.rig, "File of lights: .lp, table of numbers, or JSON of nacre calibrate")
+        ->option_text("FILE");
+    command.add_option("--mask", capture.mask, "Picture that is white on the object")->option_text("FILE");
+    command.add_flag("--force", force, "Replacement of existing outputs");
     command
         .add_option("--sphere-reflectance", sphereReflectance,
-                    "The diffuse sphere's reflectance (one value or R,G,B in (0,1]): makes the BRDF absolute")
-        ->delimiter(',');
-    command.add_option("--rig", capture.rig, "Lights from a file: .lp, numbers, or Nacre's JSON");
-    command.add_option("--compare-rig", compareRig,
-                       "Print how far the directions are from those of this file, light by light");
-    command.add_option("--mask", capture.mask, "Picture that is white on the object");
-    command.add_option("--transfer", transfer,
-                       "Curve of the photographs: linear or srgb (default: what the files declare)");
+                    "Reflectance of the diffuse sphere in (0,1], for a BRDF in absolute units: R,G,B or one value")
+        ->delimiter(',')
+        ->option_text("R,G,B")
+        ->group(kLights);
+    command.add_option("--compare-rig", compareRig, "File of lights to compare the directions with, in degrees")
+        ->option_text("FILE")
+        ->group(kLights);
+    command
+        .add_option("--transfer", transfer,
+                    "Transfer curve of the photographs (default: as the files declare, else linear)")
+        ->option_text("linear|srgb")
+        ->group(kPhotographs);
     command
         .add_option("--offset", offset,
-                    "Subtracted from every value (0..1): a number, none, or auto to estimate it from shadows "
-                    "(default: what capture.json says, else none)")
-        ->option_text("VALUE|auto|none");
-    command.add_option("--skip", capture.skip, "NAME[,NAME] of photographs to leave out")->delimiter(',');
-    command.add_option("--threads", threads, "Threads (default: all)");
-    command.add_flag("--quiet", quiet, "No progress, no summary");
-    command.add_flag("--force", force, "Replace an output that exists");
+                    "Offset subtracted from every value, 0 to 1; auto estimates it from shadows (default: that of "
+                    "capture.json, else none)")
+        ->option_text("VALUE|auto|none")
+        ->group(kPhotographs);
+    command.add_option("--skip", capture.skip, "Photographs to leave out")
+        ->delimiter(',')
+        ->option_text("NAME[,NAME]")
+        ->group(kPhotographs);
+    command.add_option("--threads", threads, "Number of threads (default: all)")->group(kRunning);
+    command.add_flag("--quiet", quiet, "No progress and no summary")->group(kRunning);
 }
 
 void CaptureArguments::addTo(CLI::App& command)
 {
     CalibrationArguments::addTo(command);
-    command.add_option("--normals", normals, "Method: " + normalMethodNames())->capture_default_str();
-    command
-        .add_option("--thresholds", thresholds,
-                    "LOW,HIGH radiance over irradiance that `threshold` keeps (default: each pixel's own shares)")
-        ->delimiter(',');
+    command.add_option("--normals", normals, "Method of the normals: " + normalMethodNames())
+        ->option_text("METHOD [" + normals + "]");
     command
         .add_option("--lights-given", lightsGiven,
-                    "Read only so many photographs, 3 or more, whose lights spread best, from the first on (default: "
-                    "all)")
-        ->option_text("K");
+                    "Number of photographs to read, 3 or more, whose lights spread best (default: all)")
+        ->option_text("K")
+        ->group(kPhotographs);
     command
-        .add_option(
-            "--intensities", intensities,
-            "auto corrects photographs that disagree with the rest, and estimates intensities that nobody gave; "
-            "given takes them as they are")
-        ->capture_default_str();
-    command.add_option("--triples", triples, "Of lights that two-step, ransac and consensus try, at most")
-        ->capture_default_str();
-    command.add_option("--seed", seed, "Of the choice of triples")->capture_default_str();
-    command.add_option(
-        "--fits", fits,
-        "Folder of published fits that exemplars use beside the built-in ones [environment variable NACRE_FITS_DIR]");
-    command.add_option("--exclude-reflectance", excludedReflectances, "NAME[,NAME] of published fits to leave out")
-        ->delimiter(',');
-    command.add_option(
-        "--smooth", capture.smooth,
-        "Picture that is white where normals are to be smoothed in from their neighbours, not estimated");
-    command.add_option("--json", json, "Write the summary to this file too");
-    command.add_option("--debug-dir", debugFolder, "Write every stage's result as a picture");
+        .add_option("--smooth", capture.smooth,
+                    "Picture that is white where normals are smoothed in from around instead of estimated")
+        ->option_text("FILE")
+        ->group(kPhotographs);
+    command
+        .add_option("--intensities", intensities,
+                    "Intensities of the lights: auto corrects those that other photographs contradict and estimates "
+                    "missing ones, given does not")
+        ->option_text("auto|given [" + intensities + "]")
+        ->group(kLights);
+    command
+        .add_option("--thresholds", thresholds,
+                    "Range of radiance over irradiance that `threshold` keeps (default: shares of each pixel's own)")
+        ->delimiter(',')
+        ->option_text("LOW,HIGH")
+        ->group(kNormals);
+    command.add_option("--triples", triples, "Largest number of light triples in two-step, ransac and consensus")
+        ->capture_default_str()
+        ->group(kNormals);
+    command.add_option("--seed", seed, "Seed of the choice of triples")->capture_default_str()->group(kNormals);
+    command
+        .add_option("--fits", fits,
+                    "Folder of published fits for exemplars, beside the built-in ones (default: $NACRE_FITS_DIR)")
+        ->option_text("DIR")
+        ->group(kNormals);
+    command.add_option("--exclude-reflectance", excludedReflectances, "Published fits to leave out")
+        ->delimiter(',')
+        ->option_text("NAME[,NAME]")
+        ->group(kNormals);
+    command.add_option("--json", json, "File for the summary as JSON")->option_text("FILE")->group(kRunning);
+    command.add_option("--debug-dir", debugFolder, "Folder for a picture of every stage's result")
+        ->option_text("DIR")
+        ->group(kRunning);
 }
 
 Capture CalibrationArguments::load()

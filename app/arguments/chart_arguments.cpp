@@ -90,7 +90,7 @@ void ChartArguments::addTo(CLI::App& command)
     command.add_option("--diffuse-sphere", capture.diffuseSphere,
                        "Folder of a diffuse sphere's photographs, for all captures");
     command.add_option("--rig", capture.rig, "Lights from a file, for all captures");
-    command.add_option("--parts", parts, "normals, brdf, rendering (default: all)")->delimiter(',');
+    command.add_option("--parts", parts, "Charts: normals, brdf, rendering (default: all)")->delimiter(',');
     command.add_option("--methods", methods, "NAME[,NAME] of " + normalMethodNames() + " (default: all)")
         ->delimiter(',');
     command
@@ -106,13 +106,12 @@ void ChartArguments::addTo(CLI::App& command)
         .add_option("--frame-lights", frameLights,
                     fmt::format("Lights of the frames, N[,N] (default: {})", fmt::join(RenderingChoices{}.lights, ",")))
         ->delimiter(',');
-    command.add_option("--frame-size", frameSize, "Of the frames, WxH")->capture_default_str();
-    command.add_option("--fits", fits,
-                       "Folder of published fits that exemplars use [environment variable NACRE_FITS_DIR]");
+    command.add_option("--frame-size", frameSize, "Size of the frames in pixels, WxH")->capture_default_str();
+    command.add_option("--fits", fits, "Folder of published fits for exemplars (default: $NACRE_FITS_DIR)");
     command.add_option("--device", device, "Vulkan device that draws: number or part of its name, see nacre info");
-    command.add_option("--threads", threads, "Threads (default: all)")->check(CLI::NonNegativeNumber);
-    command.add_flag("--quiet", quiet, "No progress, no summary");
-    command.add_flag("--force", force, "Replace an output that exists");
+    command.add_option("--threads", threads, "Number of threads (default: all)")->check(CLI::NonNegativeNumber);
+    command.add_flag("--quiet", quiet, "No progress and no summary");
+    command.add_flag("--force", force, "Replacement of existing outputs");
 }
 
 } // namespace nacre

@@ -85,25 +85,27 @@ void requireOutputs(const ExportArguments& arguments)
 
 void ExportArguments::addTo(CLI::App& command)
 {
-    command.add_option("SURFACE", surface, "Folder NAME.nacre that acquire wrote")->required();
-    command.add_option("--ptm", ptm, "Polynomial texture map: FILE.ptm")->option_text("FILE");
-    command.add_option("--ptm-format", ptmFormat, "lrgb (one biquadratic and a colour a pixel) or rgb")
+    command.add_option("SURFACE", surface, "Folder NAME.nacre of nacre acquire")->required();
+    command.add_option("--ptm", ptm, "Polynomial texture map to write, FILE.ptm")->option_text("FILE");
+    command
+        .add_option("--ptm-format", ptmFormat, "Format of the PTM: lrgb (one biquadratic and a colour a pixel) or rgb")
         ->capture_default_str();
-    command.add_option("--rti-web", web, "Folder of info.json and plane_N.jpg, as OpenLIME and relight show it")
+    command.add_option("--rti-web", web, "Folder for info.json and plane_N.jpg, for OpenLIME and relight")
         ->option_text("DIR");
-    command.add_option("--basis", basis, "Of --rti-web: hsh (nine terms) or ptm (six)")->capture_default_str();
-    command.add_option("--write-normals", normals, "FILE.png (16 bits, (n + 1) / 2) or FILE.exr")->option_text("FILE");
-    command.add_option("--albedo", albedo, "Colour without shading and gloss: FILE.png (16 bits) or FILE.exr")
+    command.add_option("--basis", basis, "Functions of --rti-web: hsh (nine) or ptm (six)")->capture_default_str();
+    command.add_option("--write-normals", normals, "Normals to write, .png (16 bits, (n + 1) / 2) or .exr")
         ->option_text("FILE");
-    command.add_option("--lights", lights, "Virtual lights that --ptm and --rti-web are fitted to")
+    command.add_option("--albedo", albedo, "Colour without shading and gloss to write, .png (16 bits) or .exr")
+        ->option_text("FILE");
+    command.add_option("--lights", lights, "Number of virtual lights for the fits of --ptm and --rti-web")
         ->capture_default_str();
     command.add_option("--exposure", exposure,
-                       "Stops of --ptm and --rti-web (default: 99th percentile over all lights at 0.9)");
-    command.add_flag("--shadows", shadows, "Lights cast shadows by the surface's height");
-    command.add_option("--size", size, "WIDTHxHEIGHT that the surface is fitted into (default: its own)");
-    command.add_option("--threads", threads, "Threads (default: all)");
+                       "Exposure of --ptm and --rti-web in stops (default: 99th percentile over all lights at 0.9)");
+    command.add_flag("--shadows", shadows, "Cast shadows, from the surface's height");
+    command.add_option("--size", size, "Size in pixels that the surface is fitted into, WxH (default: its own)");
+    command.add_option("--threads", threads, "Number of threads (default: all)");
     command.add_flag("--quiet", quiet, "No summary");
-    command.add_flag("--force", force, "Replace outputs that exist");
+    command.add_flag("--force", force, "Replacement of existing outputs");
 }
 
 void ExportArguments::check() const

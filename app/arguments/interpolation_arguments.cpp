@@ -11,13 +11,13 @@ void InterpolationArguments::addTo(CLI::App& command)
 {
     command
         .add_option("--interpolation", method,
-                    "Between samples: local-linear, or paper (mean of the nearest in raw angles)")
-        ->capture_default_str();
-    command
-        .add_option("--k", k,
-                    "Nearest samples that are used; auto finds k and the metric that predict held-out lights best")
+                    "Interpolation between samples: local-linear, or paper (mean of the nearest in raw angles)")
+        ->capture_default_str()
+        ->group("BRDF");
+    command.add_option("--k", k, "Number of nearest samples; auto chooses it, and the metric, by held-out lights")
         ->option_text("N|auto")
-        ->capture_default_str();
+        ->capture_default_str()
+        ->group("BRDF");
 }
 
 InterpolationOptions InterpolationArguments::options(int threads) const
@@ -39,14 +39,14 @@ void LadderArguments::addTo(CLI::App& command)
 {
     command
         .add_option("--tolerance", tolerance,
-                    "Keep the smallest model whose radiance is within so many dB (PSNR) of the interpolated samples, "
-                    "e.g. 45dB (default: the full table)")
+                    "Least PSNR of the model against the interpolated samples, e.g. 45dB: the smallest that has it is "
+                    "kept (default: the full table)")
         ->option_text("DB");
     command
         .add_option("--budget-bytes", budget,
-                    "Keep the best model of at most so many bytes, coverage apart, e.g. 64KiB; with --tolerance both "
-                    "must hold")
-        ->option_text("BYTES");
+                    "Largest size of the model without its coverage, e.g. 64KiB: the best below it is kept")
+        ->option_text("BYTES")
+        ->group("BRDF");
 }
 
 LadderOptions LadderArguments::options(int threads) const

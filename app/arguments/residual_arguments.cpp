@@ -10,10 +10,9 @@ namespace nacre {
 void ResidualArguments::addTo(CLI::App& command)
 {
     command
-        .add_option(
-            "--residual", choice,
-            "A layer for what the BRDF cannot explain on this object: auto keeps it if photographs left out get "
-            "better, difference always, none never")
+        .add_option("--residual", choice,
+                    "Residual layer, for what the BRDF cannot explain on this object: auto keeps it where it predicts "
+                    "held-out photographs better, difference always")
         ->option_text("auto|difference|none")
         ->capture_default_str();
 }

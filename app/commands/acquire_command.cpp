@@ -126,27 +126,32 @@ void addAcquireCommand(CLI::App& app)
     CLI::App* command =
         app.add_subcommand("acquire", "Photographs under a moving light to normals and a measured BRDF");
     arguments->common.addTo(*command);
-    command->add_option("-o,--output", arguments->output, "The surface to write, NAME.nacre")->required();
+    command->add_option("-o,--output", arguments->output, "Surface to write, NAME.nacre")->required();
     command
         ->add_option("--segment", arguments->segment,
-                     "Materials: a picture with a value or colour for each and black for none, auto to find them, "
-                     "auto:N to find N, none for one (default: the capture's labels, else none)")
+                     "Materials: picture with a value or colour for each, auto to find them, auto:N to find N "
+                     "(default: labels of the capture, else one)")
         ->option_text("FILE|auto[:N]|none");
     arguments->interpolation.addTo(*command);
     command
         ->add_option("--range", arguments->range,
-                     "Of thetaD in the table: captured, front (45 degrees) or full (90); what was not captured is "
-                     "extrapolated and marked")
-        ->capture_default_str();
+                     "Range of thetaD in the table: captured, front (45 degrees) or full (90); what was not captured "
+                     "is extrapolated")
+        ->capture_default_str()
+        ->group("BRDF");
     arguments->ladder.addTo(*command);
     arguments->residual.addTo(*command);
-    command->add_option("--coordinates", arguments->coordinates, "Of the table: half-difference or natural")
-        ->capture_default_str();
-    command->add_option("--table-size", arguments->tableSize, "X,Y,Z texels (default: from the captured range)")
-        ->delimiter(',');
-    command->add_option("--report", arguments->report,
-                        "Write report.html into this folder, a page for people; another acquisition holds photographs "
-                        "back for it");
+    command->add_option("--coordinates", arguments->coordinates, "Coordinates of the table: half-difference or natural")
+        ->capture_default_str()
+        ->group("BRDF");
+    command
+        ->add_option("--table-size", arguments->tableSize,
+                     "Size of the table in texels, X,Y,Z (default: from the captured range)")
+        ->delimiter(',')
+        ->group("BRDF");
+    command->add_option(
+        "--report", arguments->report,
+        "Folder for report.html, a page of pictures and figures; acquires once more with photographs held out");
     command->footer("Example:\n  nacre acquire horse --mirror-sphere chrome --diffuse-sphere gray -o horse.nacre");
     command->callback([arguments] { runAcquire(*arguments); });
 }

@@ -262,11 +262,15 @@ void addBenchCommand(CLI::App& app)
 {
     auto arguments = std::make_shared<BenchArguments>();
     CLI::App* command = app.add_subcommand("bench", "What frames cost on this machine, against their floors");
-    command->add_option("--size", arguments->sizes, "WxH, repeatable (default: 1280x720 1920x1080 3840x2160)");
+    command->add_option("--size", arguments->sizes, "Sizes of the frames, WxH (default: 1280x720 1920x1080 3840x2160)");
     command->add_option("--lights", arguments->lights, "Numbers of lights (default: 1 4 16 256)");
-    command->add_option("--repeats", arguments->repeats, "Of which the median is told; slow ones a fifth")
+    command
+        ->add_option("--repeats", arguments->repeats,
+                     "Number of frames behind each median; a fifth of it for slow ones")
         ->capture_default_str();
-    command->add_option("--most-direct-lights", arguments->mostDirectLights, "The direct path with more is left out")
+    command
+        ->add_option("--most-direct-lights", arguments->mostDirectLights,
+                     "Largest number of lights that are drawn directly")
         ->capture_default_str();
     command->add_option("--alpha", arguments->alpha, "GGX roughness of the material")
         ->check(CLI::Range(0.001f, 1.0f))
@@ -274,12 +278,13 @@ void addBenchCommand(CLI::App& app)
     command->add_flag("--shadows", arguments->shadows, "Direct frames with cast shadows as well");
     command
         ->add_option("--residual-components", arguments->residual,
-                     "Frames with a residual layer of so many components as well (0: none), against those without")
+                     "Number of components of a residual layer, drawn beside frames without (0: none)")
         ->capture_default_str();
     command->add_flag("--bake", arguments->bake,
-                      "Instead of frames: a table from a million samples, against asking for their neighbours alone");
-    command->add_option("--device", arguments->device, "Vulkan device: number or part of its name, see nacre info");
-    command->add_option("--json", arguments->json, "Write the figures as flat names");
+                      "Table from a million samples, against the search for their neighbours alone, instead of frames");
+    command->add_option("--device", arguments->device,
+                        "Vulkan device: number or part of its name in nacre info (default: the first)");
+    command->add_option("--json", arguments->json, "File for the figures as JSON");
     command->footer("Example:\n  nacre bench --size 1920x1080 --json bench.json");
     command->callback([arguments] { runBench(*arguments); });
 }

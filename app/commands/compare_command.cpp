@@ -126,19 +126,18 @@ void addCompareCommand(CLI::App& app)
     auto arguments = std::make_shared<CompareArguments>();
     CLI::App* command = app.add_subcommand(
         "compare", "How far a picture is from a reference: PSNR of radiance, SSIM and codes of what the eye sees");
-    command
-        ->add_option("PICTURE", arguments->picture,
-                     "Picture to judge, of linear radiance: render's .exr (its .png is exposed for the eye)")
+    command->add_option("PICTURE", arguments->picture, "Picture to judge, of linear radiance: .exr of nacre render")
         ->required();
-    command->add_option("REFERENCE", arguments->reference, "Picture that is taken for true")->required();
+    command->add_option("REFERENCE", arguments->reference, "Picture to compare with")->required();
     command->add_option("--mask", arguments->mask, "Picture that is white where to compare");
     command->add_option("--peak", arguments->peak,
-                        "Radiance that counts as 1 (default: the reference's 99th percentile)");
-    command->add_option("--at-least", arguments->atLeast, "Exit with 1 below this PSNR in dB");
+                        "Radiance that counts as 1 (default: 99th percentile of the reference)");
+    command->add_option("--at-least", arguments->atLeast, "Least PSNR in dB, below which the exit code is 1");
     command->add_option("--code-tolerance", arguments->codeTolerance,
-                        "Count pixels off by more than this many of 255 codes [4]");
-    command->add_option("--ssim-at-least", arguments->ssimAtLeast, "Exit with 1 below this structural similarity");
-    command->add_option("--json", arguments->json, "Write the figures to this file too");
+                        "Largest difference, in codes of 255, of pixels that are not counted [4]");
+    command->add_option("--ssim-at-least", arguments->ssimAtLeast,
+                        "Least structural similarity, below which the exit code is 1");
+    command->add_option("--json", arguments->json, "File for the figures as JSON");
     command->footer("Example:\n  nacre compare render.exr horse.4.tga --mask horse.mask.tga --at-least 20");
     command->callback([arguments] { runCompare(*arguments); });
 }

@@ -119,16 +119,16 @@ void addEvaluateCommand(CLI::App& app)
     command
         ->add_option(
             "--hold-out", arguments->holdOut,
-            "every:N keeps back the first photograph and every N-th after; each keeps back one after the other")
+            "Photographs that are held out: every:N (the first and each N-th after) or each (one after the other)")
         ->capture_default_str();
     command->add_option("--truth", arguments->truth,
-                        "True normals to compare with (.mat, .png, .exr); sphere: those of the ball that fills the "
-                        "mask (default: the capture's own)");
+                        "True normals to compare with (.mat, .png, .exr), or sphere for those of the ball that fills "
+                        "the mask (default: those of the capture)");
     command->add_option("-o,--output", arguments->output,
                         "Folder for worst.png: the photograph predicted worst, its prediction, their difference");
     command->add_flag(
         "--baselines", arguments->baselines,
-        "Compare with per-pixel relighting: PTM, HSH, RBF, thin-plate splines, each at its best smoothing");
+        "Comparison with per-pixel relighting: PTM, HSH, RBF, thin-plate splines, each at its best smoothing");
     command->footer("Example:\n  nacre evaluate ballPNG --lights-given 36 --json ball.json -o ball");
     command->callback([arguments] { runEvaluate(*arguments); });
 }

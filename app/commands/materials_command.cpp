@@ -125,14 +125,14 @@ void addMaterialsCommand(CLI::App& app)
                         "Folders to look in (and one level below), or materials by name: NAME.nacre[#MATERIAL], "
                         ".binary, .bsdf, .exr, merl-abc:NAME, ...");
     command->add_option("--fits", arguments->fits,
-                        "List the published fits too: folder of merl_abc_params.csv and merl_sgd_params.csv");
+                        "Folder of merl_abc_params.csv and merl_sgd_params.csv, to list the published fits as well");
     command->add_option("-o,--output", arguments->output, "Sheet of balls (.png)");
-    command->add_option("--json", arguments->json, "Write the list to this file");
+    command->add_option("--json", arguments->json, "File for the list as JSON");
     command->add_option("--threads", arguments->threads, "Threads (0: all)")
         ->check(CLI::NonNegativeNumber)
         ->capture_default_str();
-    command->add_flag("--force", arguments->force, "Replace an output that exists");
-    command->add_flag("--quiet", arguments->quiet, "Print nothing");
+    command->add_flag("--force", arguments->force, "Replacement of existing outputs");
+    command->add_flag("--quiet", arguments->quiet, "No messages");
     command->footer("Example:\n  nacre materials . -o balls.png");
     command->callback([arguments] { runMaterials(*arguments); });
 }

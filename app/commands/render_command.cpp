@@ -85,62 +85,84 @@ void addRenderCommand(CLI::App& app)
 {
     auto arguments = std::make_shared<RenderArguments>();
     CLI::App* command = app.add_subcommand("render", "A surface, or its material on other normals, under any lights");
-    command->add_option("SURFACE", arguments->surface, "Folder NAME.nacre that acquire wrote; or --material");
-    command->add_option("--material", arguments->material,
-                        "In place of SURFACE, with --onto: FILE.binary (MERL), FILE.bsdf (RGL), FILE.exr (our table), "
-                        "NAME.nacre[#MATERIAL], or a model as synth takes it");
-    command->add_option("--fits", arguments->fits,
-                        "Folder of merl_abc_params.csv and merl_sgd_params.csv "
-                        "[environment variable NACRE_FITS_DIR]");
+    command->add_option("SURFACE", arguments->surface, "Folder NAME.nacre of nacre acquire; or --material");
+    command->add_option(
+        "--material", arguments->material,
+        "Material instead of SURFACE, for --onto: .binary (MERL), .bsdf (RGL), .exr, NAME.nacre[#MATERIAL] or a model");
+    command
+        ->add_option("--fits", arguments->fits,
+                     "Folder of merl_abc_params.csv and merl_sgd_params.csv (default: $NACRE_FITS_DIR)")
+        ->group("Materials and shapes");
     command
         ->add_option("--light", arguments->lights,
-                     "x,y,z[,r,g,b]: direction towards the light (x right, y up, z towards the camera), irradiance "
-                     "(default 1); or captured:N; soft:DEGREES: before it spreads it. Repeatable (default: captured:1)")
+                     "Light: direction x,y,z[,r,g,b] with irradiance [1]; captured:N; soft:DEGREES: in front spreads "
+                     "it. Repeatable (default: captured:1)")
         ->allow_extra_args(false);
-    command->add_option("--onto", arguments->onto,
-                        "Put the first material onto these camera-frame normals: .exr, .png (16-bit "
-                        "best; n = 2v - 1, black = no data) or another NAME.nacre; a tangent-space "
-                        "map makes a flat piece seen from the front");
-    command->add_option("--normal-y", arguments->normalY, "Green of --onto's picture: gl (up, default) or dx (down)");
-    command->add_option("--size", arguments->size, "WxH pixels to fit the surface into (default: its own size)");
+    command->add_option(
+        "--onto", arguments->onto,
+        "Shape for the first material: camera-frame or tangent-space normals (.exr, .png) or NAME.nacre");
+    command->add_option("--normal-y", arguments->normalY, "Green of the normals of --onto: gl (up) or dx (down) [gl]")
+        ->group("Materials and shapes");
+    command->add_option("--size", arguments->size,
+                        "Size in pixels that the surface is fitted into, WxH (default: its own)");
     command->add_option("--exposure", arguments->exposure,
-                        "Stops, not on EXR (default: the 99th percentile of radiance at 0.9)");
+                        "Exposure in stops, not for .exr (default: 99th percentile of radiance at 0.9)");
     command->add_option("--environment", arguments->environment,
-                        "Light from all around: latitude-longitude picture, .exr or .hdr, +z in its middle");
-    command->add_option("--environment-lights", arguments->environmentLights,
-                        "At most so many directional lights stand for it (default: 256)");
+                        "Latitude-longitude picture of the light from all around, .exr or .hdr");
+    command
+        ->add_option("--environment-lights", arguments->environmentLights,
+                     "Largest number of directional lights for --environment (default: 256)")
+        ->group("Lights");
     command->add_option("--rig", arguments->rig,
-                        "Lights by name: key, three-point, raking, ring, environment; or those of a file, as nacre "
-                        "calibrate writes it (docs/formats.md)");
-    command->add_option("--environment-turn", arguments->environmentTurn, "Degrees about the vertical axis");
-    command->add_option("--view", arguments->view,
-                        "x,y,z towards another distant viewer of the same normals (default: 0,0,1)");
-    command->add_option("--path", arguments->path,
-                        "auto, direct (a table lookup per pixel and light) or ball (one lookup a pixel) [auto]");
-    command->add_option("--tone", arguments->tone, "Tone curve, not on EXR: srgb or filmic [srgb]");
-    command->add_option("--show", arguments->show,
-                        "picture, normals, labels, coverage (stripes where something unmeasured is asked for), theta-h "
-                        "or theta-d (of the brightest light) [picture]");
-    command->add_option("--layer", arguments->residual,
-                        "What the captured surface shows beyond its BRDF, where acquire kept it: on, off, or alone "
-                        "about middle grey [on]");
-    command->add_flag_function(
-        "--shadows,!--no-shadows", [arguments](int64_t count) { arguments->shadows = count > 0; },
-        "The height casts shadows, where NAME.nacre has one; a captured surface's is integrated from its normals");
-    command->add_option("--frames", arguments->frames,
-                        "A sequence of so many: NAME_0001.png and so on, or one .webp of 25 a second");
-    command->add_option("--motion", arguments->motion,
-                        "How lights move over --frames: turntable (about the view), sweep (left to right), none "
-                        "[turntable]");
-    command->add_option("--state", arguments->state,
-                        "JSON file whose keys are these options; the command line wins (docs/formats.md)");
-    command->add_option("--device", arguments->device, "Vulkan device: number or part of its name, see nacre info");
+                        "Lights by name: key, three-point, raking, ring, environment; or a file of lights");
+    command
+        ->add_option("--environment-turn", arguments->environmentTurn,
+                     "Turn of --environment about the vertical axis in degrees (default: 0)")
+        ->group("Lights");
+    command->add_option("--view", arguments->view, "Direction x,y,z towards the viewer (default: 0,0,1)")
+        ->group("Picture");
+    command
+        ->add_option("--path", arguments->path,
+                     "Lookups: direct (one per pixel and light), ball (one per pixel) or auto [auto]")
+        ->group("Picture");
+    command->add_option("--tone", arguments->tone, "Tone curve, not for .exr: srgb or filmic [srgb]")->group("Picture");
+    command
+        ->add_option("--show", arguments->show,
+                     "Content: picture, normals, labels, coverage (stripes where not measured), theta-h or theta-d of "
+                     "the brightest light [picture]")
+        ->group("Picture");
+    command
+        ->add_option("--layer", arguments->residual,
+                     "Residual layer of the captured surface: on, off, or alone about middle grey [on]")
+        ->group("Picture");
+    command
+        ->add_flag_function(
+            "--shadows,!--no-shadows", [arguments](int64_t count) { arguments->shadows = count > 0; },
+            "Cast shadows, from the height of the surface or from its integrated normals")
+        ->group("Picture");
+    command
+        ->add_option("--frames", arguments->frames,
+                     "Number of frames: NAME_0001.png and so on, or one .webp of 25 a second")
+        ->group("Picture");
+    command
+        ->add_option(
+            "--motion", arguments->motion,
+            "Motion of the lights over --frames: turntable (about the view), sweep (left to right), none [turntable]")
+        ->group("Picture");
+    command
+        ->add_option("--state", arguments->state,
+                     "JSON file whose keys are these options; the command line takes precedence")
+        ->group("Running");
+    command
+        ->add_option("--device", arguments->device,
+                     "Vulkan device: number or part of its name in nacre info (default: the first)")
+        ->group("Running");
     command
         ->add_option("-o,--output", arguments->output,
                      "Picture to write: .png (8-bit sRGB), .exr (linear) or .webp (lossless, animated)")
         ->required();
-    command->add_flag("--force", arguments->force, "Replace an output that exists");
-    command->add_flag("--quiet", arguments->quiet, "Print nothing");
+    command->add_flag("--force", arguments->force, "Replacement of existing outputs");
+    command->add_flag("--quiet", arguments->quiet, "No messages")->group("Running");
     command->footer("Example:\n  nacre render horse.nacre --light=-0.5,0.3,1 --light 0.6,0,1,1,0.8,0.6 --size 640x480 "
                     "-o horse.png\n  nacre render horse.nacre --onto cloth.exr -o cloth.exr\n"
                     "  nacre render --material paper_white_rgb.bsdf --onto cloth.exr -o paper.png\n"

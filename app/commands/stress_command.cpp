@@ -129,12 +129,13 @@ void addStressCommand(CLI::App& app)
         ->delimiter(',');
     command->add_option("--methods", arguments->methods, "NAME[,NAME] of " + normalMethodNames() + " (default: all)")
         ->delimiter(',');
-    command->add_option("--material", arguments->material, "Of the synthetic object, as `synth` has it")
+    command->add_option("--material", arguments->material, "Material of the synthetic object, as in nacre synth")
         ->capture_default_str();
     command->add_option("--fits", arguments->fits,
                         "Folder of published fits, for --material [environment variable NACRE_FITS_DIR]");
-    command->add_option("--side", arguments->size, "Side of the synthetic photographs, pixels")->capture_default_str();
-    command->add_option("--seed", arguments->seed, "Of everything that is drawn")->capture_default_str();
+    command->add_option("--side", arguments->size, "Side of the synthetic photographs in pixels")
+        ->capture_default_str();
+    command->add_option("--seed", arguments->seed, "Seed of everything random")->capture_default_str();
     command->footer("Example:\n  nacre stress synthetic -o stress --sweep lights,layout --methods consensus,auto");
     command->callback([arguments] { runStress(*arguments); });
 }

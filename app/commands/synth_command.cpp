@@ -94,9 +94,9 @@ void addSynthCommand(CLI::App& app)
     CLI::App* command = app.add_subcommand("synth", "Make a capture of a solid whose truth is known");
     command->footer(kExample);
     command->add_option("OUT", arguments->output, "Folder to write")->required();
-    command->add_option("--shape", arguments->shape, "bumpy (casts shadows) or sphere")->capture_default_str();
-    command->add_option("--side", arguments->size, "Side of a photograph, pixels")->capture_default_str();
-    command->add_option("--lights", o.lights, "Number of lights, one photograph each")->capture_default_str();
+    command->add_option("--shape", arguments->shape, "Solid: bumpy (casts shadows) or sphere")->capture_default_str();
+    command->add_option("--side", arguments->size, "Side of a photograph in pixels")->capture_default_str();
+    command->add_option("--lights", o.lights, "Number of lights, one a photograph")->capture_default_str();
     command
         ->add_option("--material", arguments->materials,
                      "Reflectance, see below; given several times, the object wears them in patches [" + o.material +
@@ -104,25 +104,25 @@ void addSynthCommand(CLI::App& app)
         ->option_text("SPEC")
         ->allow_extra_args(false);
     command->add_option("--fits", arguments->fits,
-                        "Folder of merl_abc_params.csv and merl_sgd_params.csv "
-                        "[environment variable NACRE_FITS_DIR]");
-    command->add_option("--noise", o.noise, "Standard deviation, share of the object's 99th percentile")
+                        "Folder of merl_abc_params.csv and merl_sgd_params.csv (default: $NACRE_FITS_DIR)");
+    command
+        ->add_option("--noise", o.noise, "Standard deviation of the noise, as a share of the object's 99th percentile")
         ->capture_default_str();
-    command->add_option("--format", arguments->format, "png (16-bit linear) or exr (float)")->capture_default_str();
+    command->add_option("--format", arguments->format, "Format of the photographs: png (16-bit linear) or exr (float)")
+        ->capture_default_str();
     command->add_option("--exposures", o.exposures, "Relative times of each photograph's bracket, e.g. 1,0.25 [1]")
         ->delimiter(',');
-    command->add_flag("--no-shadows", arguments->noShadows, "Let the solid cast no shadow on itself");
-    command->add_flag("--shadow-masks", o.shadowMasks, "Write truth/shadow_NN.png, white where the light arrives");
-    command->add_flag("--give-lights", o.giveLights, "Write the true lights into capture.json");
-    command->add_option("--sphere-size", o.sphereSize, "Side of the spheres' photographs, pixels")
+    command->add_flag("--no-shadows", arguments->noShadows, "No cast shadows");
+    command->add_flag("--shadow-masks", o.shadowMasks, "Pictures truth/shadow_NN.png, white where the light arrives");
+    command->add_flag("--give-lights", o.giveLights, "True lights in capture.json");
+    command->add_option("--sphere-size", o.sphereSize, "Side of the spheres' photographs in pixels")
         ->capture_default_str();
-    command->add_option("--cap-degrees", o.capDegrees, "Largest angle between a light and the view")
+    command->add_option("--cap-degrees", o.capDegrees, "Largest angle between a light and the view in degrees")
         ->capture_default_str();
-    command->add_option("--seed", o.seed, "Of the lights' places and strengths and of the noise")
-        ->capture_default_str();
-    command->add_option("--threads", o.threads, "Threads (0: all)")->capture_default_str();
-    command->add_flag("--force", arguments->force, "Replace an existing capture");
-    command->add_flag("--quiet", arguments->quiet, "Print nothing");
+    command->add_option("--seed", o.seed, "Seed of lights and noise")->capture_default_str();
+    command->add_option("--threads", o.threads, "Number of threads (0: all)")->capture_default_str();
+    command->add_flag("--force", arguments->force, "Replacement of existing outputs");
+    command->add_flag("--quiet", arguments->quiet, "No messages");
     command->callback([arguments] { run(*arguments); });
 }
 

@@ -98,39 +98,39 @@ void addTransferCommand(CLI::App& app)
     auto arguments = std::make_shared<TransferArguments>();
     CLI::App* command = app.add_subcommand("transfer", "Materials on other shapes under several lights, side by side");
     command
-        ->add_option(
-            "--materials", arguments->materials,
-            "A,B,C: NAME.nacre[#MATERIAL], FILE.binary, FILE.bsdf, FILE.exr, merl-abc:NAME, lambert:R,G,B, ...")
+        ->add_option("--materials", arguments->materials,
+                     "Materials A,B,C: NAME.nacre[#MATERIAL], .binary, .bsdf, .exr, merl-abc:NAME, lambert:R,G,B, ...")
         ->allow_extra_args(false);
     command
         ->add_option("--onto", arguments->targets,
-                     "X,Y: whatever nacre target takes: a mesh, a normal or height map, NAME.nacre, make:NAME")
+                     "Shapes X,Y, as nacre target takes them: mesh, normal or height map, NAME.nacre, make:NAME")
         ->allow_extra_args(false);
     command
         ->add_option("--rig", arguments->rigs,
-                     "key, three-point, raking, ring, environment; lights of a file (.json, .lp), FILE#N one of "
-                     "them; an environment (.exr, .hdr) [key]")
+                     "Rigs: key, three-point, raking, ring, environment; file of lights (.json, .lp; #N for one of "
+                     "them) or environment (.exr, .hdr) [key]")
         ->allow_extra_args(false);
     command
         ->add_option("--labels", arguments->labels,
-                     "0=A,1=B: one more row, whose parts have materials of their own; the rest has the first")
+                     "One more row with a material for each part, 0=A,1=B; other parts have the first")
         ->allow_extra_args(false);
     command->add_option("--fits", arguments->fits,
-                        "Folder of merl_abc_params.csv and merl_sgd_params.csv [environment variable NACRE_FITS_DIR]");
-    command->add_option("--size", arguments->size, "WxH pixels of each picture")->capture_default_str();
-    command->add_option("--frames", arguments->frames, "Moving lights: so many numbered .png, and an animated .webp");
+                        "Folder of merl_abc_params.csv and merl_sgd_params.csv (default: $NACRE_FITS_DIR)");
+    command->add_option("--size", arguments->size, "Size of each picture in pixels, WxH")->capture_default_str();
+    command->add_option("--frames", arguments->frames, "Number of frames with moving lights, as .png and one .webp");
     command->add_option("--motion", arguments->motion,
-                        "turntable (about the view) or sweep (left to right) [turntable]");
-    command->add_flag("--hatch", arguments->hatch, "Stripes where something unmeasured is asked for");
-    command->add_flag("--shadows", arguments->shadows, "Targets cast shadows on themselves, from their height");
-    command->add_option("-o,--output", arguments->output, "Folder to make: sheet_RIG.png and every picture by itself")
+                        "Motion of the lights: turntable (about the view) or sweep (left to right) [turntable]");
+    command->add_flag("--hatch", arguments->hatch, "Stripes where the material was not measured");
+    command->add_flag("--shadows", arguments->shadows, "Cast shadows, from the height of the shapes");
+    command->add_option("-o,--output", arguments->output, "Folder for sheet_RIG.png and every single picture")
         ->required();
-    command->add_option("--device", arguments->device, "Vulkan device: number or part of its name, see nacre info");
-    command->add_option("--threads", arguments->threads, "Threads (0: all)")
+    command->add_option("--device", arguments->device,
+                        "Vulkan device: number or part of its name in nacre info (default: the first)");
+    command->add_option("--threads", arguments->threads, "Number of threads (0: all)")
         ->check(CLI::NonNegativeNumber)
         ->capture_default_str();
-    command->add_flag("--force", arguments->force, "Replace the folder");
-    command->add_flag("--quiet", arguments->quiet, "Print nothing");
+    command->add_flag("--force", arguments->force, "Replacement of existing outputs");
+    command->add_flag("--quiet", arguments->quiet, "No messages");
     command->footer(
         "Example:\n  nacre transfer --materials horse.nacre,merl-abc:brass --onto make:cloth,statue.obj "
         "--rig key,raking -o out\n"

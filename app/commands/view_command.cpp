@@ -99,32 +99,41 @@ void addViewCommand(CLI::App& app)
     auto arguments = std::make_shared<ViewArguments>();
     RenderArguments& scene = arguments->scene;
     CLI::App* command = app.add_subcommand("view", "A surface in a window: drag the light, swap the material");
-    command->add_option("SURFACE", scene.surface, "Folder NAME.nacre that acquire wrote; or --material");
-    command->add_option("--material", scene.material, "In place of SURFACE, with --onto: as render takes it");
-    command->add_option("--fits", scene.fits,
-                        "Folder of merl_abc_params.csv and merl_sgd_params.csv "
-                        "[environment variable NACRE_FITS_DIR]");
-    command->add_option("--onto", scene.onto, "Put the material onto these normals: as render takes it");
-    command->add_option("--normal-y", scene.normalY, "Green of --onto's picture: gl (up, default) or dx (down)");
-    command->add_option("--size", scene.size, "WxH pixels to fit the surface into (default: its own size)");
-    command->add_option("--light", scene.lights, "A light to begin with: as render takes it. Repeatable")
-        ->allow_extra_args(false);
-    command->add_option("--environment", scene.environment, "Light from all around: as render takes it");
-    command->add_option("--exposure", scene.exposure, "Stops to begin with (default: automatic)");
-    command->add_option("--show", scene.show,
-                        "To begin with: picture, normals, labels, coverage, theta-h, theta-d or, with --capture, "
-                        "verdicts [picture]");
-    command->add_option("--layer", scene.residual,
-                        "To begin with, what the surface shows beyond its BRDF: on, off or alone [on]");
-    command->add_option("--state", scene.state, "A screenshot's state file, or any that render takes");
-    command->add_option("--capture", arguments->capture,
-                        "Folder of the photographs that SURFACE was measured from, to compare with");
+    command->add_option("SURFACE", scene.surface, "Folder NAME.nacre of nacre acquire; or --material");
+    command->add_option("--material", scene.material, "Material instead of SURFACE, for --onto, as in nacre render");
+    command
+        ->add_option("--fits", scene.fits,
+                     "Folder of merl_abc_params.csv and merl_sgd_params.csv (default: $NACRE_FITS_DIR)")
+        ->group("Running");
+    command->add_option("--onto", scene.onto, "Shape for the material, as in nacre render");
+    command->add_option("--normal-y", scene.normalY, "Green of the normals of --onto: gl (up) or dx (down) [gl]")
+        ->group("At the start");
+    command->add_option("--size", scene.size, "Size in pixels that the surface is fitted into, WxH (default: its own)")
+        ->group("At the start");
+    command->add_option("--light", scene.lights, "Light, as in nacre render. Repeatable")
+        ->allow_extra_args(false)
+        ->group("At the start");
+    command->add_option("--environment", scene.environment, "Light from all around, as in nacre render")
+        ->group("At the start");
+    command->add_option("--exposure", scene.exposure, "Exposure in stops (default: automatic)")->group("At the start");
+    command
+        ->add_option(
+            "--show", scene.show,
+            "Content: picture, normals, labels, coverage, theta-h, theta-d or, with --capture, verdicts [picture]")
+        ->group("At the start");
+    command->add_option("--layer", scene.residual, "Residual layer: on, off or alone [on]")->group("At the start");
+    command->add_option("--state", scene.state, "State file of a screenshot or of nacre render");
+    command->add_option("--capture", arguments->capture, "Folder of the photographs that SURFACE was measured from");
     command->add_option("--screenshots", arguments->screenshots, "Folder for screenshots [.]");
-    command->add_option("--window", arguments->window, "WxH of the window [1280x720]");
-    command->add_option("--device", scene.device, "Vulkan device: number or part of its name, see nacre info");
-    command->add_flag("--headless", arguments->headless, "No window: write what it would show to -o");
-    command->add_option("-o,--output", scene.output, "Picture for --headless: .png, with its state beside it");
-    command->add_flag("--force", scene.force, "Replace an output that exists");
+    command->add_option("--window", arguments->window, "Size of the window in pixels, WxH [1280x720]")
+        ->group("Running");
+    command
+        ->add_option("--device", scene.device,
+                     "Vulkan device: number or part of its name in nacre info (default: the first)")
+        ->group("Running");
+    command->add_flag("--headless", arguments->headless, "Picture of --output instead of a window");
+    command->add_option("-o,--output", scene.output, "Picture for --headless, .png; its state is written beside it");
+    command->add_flag("--force", scene.force, "Replacement of existing outputs");
     command->footer("Example:\n  nacre view horse.nacre --capture horse\n  nacre view horse.nacre --onto cloth.exr\n"
                     "  nacre view --state nacre-0001.json --headless -o again.png\nIn the window, H shows the keys.");
     command->callback([arguments] { runView(*arguments); });

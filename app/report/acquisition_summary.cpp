@@ -133,7 +133,7 @@ std::string describe(const Capture& capture, const Rig& rig)
             "\nthe diffuse sphere's own shading puts the lights {:.2f} degrees elsewhere in the mean, {:.2f} at most\n",
             meanOf(rig.shadingDisagreement),
             *std::max_element(rig.shadingDisagreement.begin(), rig.shadingDisagreement.end()));
-        text += fmt::format("beneath its shading lies an offset of {:.4f}\n", rig.shadingOffset);
+        text += fmt::format("its shading has an offset of {:.4f}\n", rig.shadingOffset);
     }
     for (const Finding& warning : rig.warnings) {
         text += lineOf(warning) + "\n";

@@ -55,9 +55,10 @@ std::string flippedGreenWarning(const std::filesystem::path& file, const NormalM
         return {};
     }
     const bool isGl = normalY == NormalY::gl;
-    return fmt::format("{}: its green seems to point {}: no height has these normals (residual {:.2g} times that with "
-                       "green flipped); --normal-y {} turns it",
-                       file.string(), isGl ? "down" : "up", check.residualRatio, isGl ? "dx" : "gl");
+    return fmt::format(
+        "{}: its green seems to point {}: as a surface, these normals contradict each other {:.2g} times as "
+        "much as with green flipped; --normal-y {} flips it",
+        file.string(), isGl ? "down" : "up", check.residualRatio, isGl ? "dx" : "gl");
 }
 
 } // namespace nacre

@@ -57,7 +57,8 @@ plot for [i=1:words(series)] table every ::first::last \
          font ',9' notitle, \
      table every ::first::last using (pick(isUsual(0) && !isOn(0), xColumn)):(column(yColumn)):(label(0)) \
          with labels center offset character 0,(isError ? 1.3 : -1.3) font ',9' tc rgb orange notitle, \
-     for [i=1:words(series)] keyentry with points pt shape(i) lc rgb '#555555' title word(series, i).seriesSuffix, \
+     for [i=1:words(series)] keyentry with points pt shape(i) lc rgb '#555555' \
+         title word(series, i).(word(series, i) eq '1' ? ' light' : seriesSuffix), \
      keyentry with points pt 6 ps 1.8 lw 2 lc rgb orange title "the program's default", \
      keyentry with points pt 7 lc rgb blue title 'no other setting beats it', \
      keyentry with points pt 7 lc rgb grey title 'dominated'
