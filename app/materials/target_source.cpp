@@ -109,7 +109,7 @@ std::string describeMesh(const Mesh& mesh)
     const auto mapped = std::count_if(mesh.parts.begin(), mesh.parts.end(),
                                       [](const MeshPart& part) { return part.normalMap != nullptr; });
     return text + (mapped > 0 ? fmt::format(", {} with a normal map", mapped) : "") +
-           (mesh.normalsWereMade ? "; normals made smooth by area and angle" : "; normals of the file");
+           (mesh.normalsWereMade ? "; normals made smooth" : "; normals of the file");
 }
 
 void warnOfMesh(const std::string& source, const Mesh& mesh, std::vector<std::string>& warnings)

@@ -16,6 +16,17 @@ namespace {
 
 constexpr std::array kOneInput = {ShaderBinding{kBindingInput, kTextureInput}};
 
+static_assert(kConstantModulated == 0 && kConstantToneCurve == 1);
+
+PassDescription displayPass(VkFormat format)
+{
+    return {.fragmentShader = ball_display_frag,
+            .bindings = kOneInput,
+            .pushConstantBytes = sizeof(BallDisplayConstants),
+            .targetFormat = format,
+            .cover = Cover::disc};
+}
+
 VkDeviceSize normalBytes(int size)
 {
     return VkDeviceSize{4} * size * size;
@@ -43,7 +54,8 @@ BallCache::BallCache(const Context& context, DirectPass& direct, VkDeviceSize by
     : context_(context), direct_(direct), limit_(bytes), nearest_(makeSampler(context, VK_FILTER_NEAREST)),
       linear_(makeSampler(context, VK_FILTER_LINEAR)),
       add_(context,
-           {.fragmentShader = copy_frag, .bindings = kOneInput, .targetFormat = kFloatFormat, .blend = Blend::add})
+           {.fragmentShader = copy_frag, .bindings = kOneInput, .targetFormat = kFloatFormat, .blend = Blend::add}),
+      encodeCodes_(context, displayPass(kCodeFormat)), encodeRadiance_(context, displayPass(kHalfFormat))
 {
 }
 
@@ -156,16 +168,6 @@ bool BallCache::prepare()
             scratch_.emplace(material.size, makeTarget(context_, squareExtent(material.size), kFloatFormat));
         }
     }
-    if (const std::pair key{int{modulated_}, displayOptions_.toneCurve}; !encode_.contains(key)) {
-        static_assert(kConstantModulated == 0 && kConstantToneCurve == 1);
-        const std::array constants = {key.first, key.second};
-        encode_.emplace(key, Pipeline(context_, {.fragmentShader = ball_display_frag,
-                                                 .constants = constants,
-                                                 .bindings = kOneInput,
-                                                 .pushConstantBytes = sizeof(BallDisplayConstants),
-                                                 .targetFormat = modulated_ ? kHalfFormat : kCodeFormat,
-                                                 .cover = Cover::disc}));
-    }
     return true;
 }
 
@@ -217,7 +219,8 @@ void BallCache::recordSum(VkCommandBuffer commands, size_t material, const Table
 
 void BallCache::recordDisplay(VkCommandBuffer commands)
 {
-    const Pipeline& encode = encode_.at({int{modulated_}, displayOptions_.toneCurve});
+    const Pipeline& encode =
+        (modulated_ ? encodeRadiance_ : encodeCodes_).with({modulated_, displayOptions_.toneCurve});
     imageBarrier(commands, display_.image(), kDiscarded, kDrawnTo);
     for (size_t material = 0; material < materials_.size(); ++material) {
         const int column = static_cast<int>(material) % columns_, row = static_cast<int>(material) / columns_;

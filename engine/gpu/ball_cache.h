@@ -60,9 +60,9 @@ private:
     Sampler nearest_;
     Sampler linear_;
     Pipeline add_;
-    std::map<std::pair<int, int>, Pipeline> encode_; // by modulated and tone curve
-    std::map<int, Texture> normals_;                 // of the ball's texels, by size
-    std::map<int, Texture> scratch_;                 // where chunks are not kept, by size
+    Pipelines encodeCodes_, encodeRadiance_; // where nothing, and where something is done to a pixel after the ball
+    std::map<int, Texture> normals_;         // of the ball's texels, by size
+    std::map<int, Texture> scratch_;         // where chunks are not kept, by size
     std::vector<MaterialBalls> materials_;
     std::vector<Light> lights_;
     std::vector<uint8_t> chunkIsStale_; // one a chunk

@@ -1,7 +1,4 @@
 #pragma once
-#include <array>
-#include <map>
-
 #include "engine/gpu/ball_cache.h"
 #include "engine/gpu/fours_target.h"
 #include "engine/gpu/residual_pass.h"
@@ -29,11 +26,9 @@ public:
     VkDeviceSize bytes() const { return target_.bytes(); }
 
 private:
-    const Pipeline& pipeline(const PixelTextures& pixels, const Inputs& inputs);
-
     const Context& context_;
     Sampler nearest_;
-    std::map<std::array<int, 3>, Pipeline> pipelines_; // by modulated, tone curve and fours of components
+    Pipelines pipelines_;
     FoursTarget target_;
 };
 

@@ -1,5 +1,10 @@
 #include "engine/gpu/buffer.h"
 
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "engine/files/error.h"
 #include "engine/gpu/check.h"
 
 namespace nacre {
@@ -52,6 +57,31 @@ void barrierAfterCopy(VkCommandBuffer commands, const Buffer& buffer, VkPipeline
     vkCmdPipelineBarrier2(commands, &dependency);
 }
 
+constexpr VkDeviceSize kBytesPerTexel = 16;
+
+void requireTexels(const Context& context, VkDeviceSize bytes)
+{
+    const VkDeviceSize most =
+        std::min(context.limits().maxTexelBufferElements * kBytesPerTexel, context.largestAllocation());
+    if (bytes > most) {
+        throw Error(
+            {},
+            fmt::format("a buffer of {} MiB is too large for the Vulkan device {}", bytes >> 20, context.info().name),
+            fmt::format("at most {} MiB", most >> 20));
+    }
+}
+
+VkBufferView createTexelView(VkDevice device, const Buffer& buffer, VkFormat format)
+{
+    const VkBufferViewCreateInfo info{.sType = VK_STRUCTURE_TYPE_BUFFER_VIEW_CREATE_INFO,
+                                      .buffer = buffer.get(),
+                                      .format = format,
+                                      .range = VK_WHOLE_SIZE};
+    VkBufferView view = VK_NULL_HANDLE;
+    checkVulkan(vkCreateBufferView(device, &info, nullptr, &view), "vkCreateBufferView");
+    return view;
+}
+
 } // namespace
 
 Buffer::Buffer(const Context& context, VkDeviceSize bytes, VkBufferUsageFlags usage, Memory memory)
@@ -78,6 +108,28 @@ void makeVisibleToDevice(VkCommandBuffer commands, const Buffer& buffer)
 void makeWritable(VkCommandBuffer commands, const Buffer& buffer)
 {
     barrierAfterCopy(commands, buffer, VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT);
+}
+
+TexelBuffer::TexelBuffer(const Context& context, VkFormat format, VkDeviceSize bytes, Memory memory)
+{
+    requireTexels(context, bytes);
+    buffer_ =
+        Buffer(context, bytes, VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT, memory);
+    view_ = {context.device(), createTexelView(context.device(), buffer_, format)};
+}
+
+TexelBuffer uploadTexels(const Context& context, VkFormat format, VkDeviceSize bytes,
+                         const std::function<void(uint8_t*)>& write)
+{
+    TexelBuffer texels(context, format, bytes, Memory::device);
+    const Buffer staging(context, bytes, VK_BUFFER_USAGE_TRANSFER_SRC_BIT);
+    write(static_cast<uint8_t*>(staging.mapped()));
+    context.run([&](VkCommandBuffer commands) {
+        const VkBufferCopy all{.size = bytes};
+        vkCmdCopyBuffer(commands, staging.get(), texels.buffer().get(), 1, &all);
+        makeVisibleToDevice(commands, texels.buffer());
+    });
+    return texels;
 }
 
 } // namespace nacre

@@ -1,4 +1,7 @@
 #pragma once
+#include <cstdint>
+#include <functional>
+
 #include <vulkan/vulkan.h>
 
 #include "engine/gpu/context.h"
@@ -31,5 +34,25 @@ void makeVisibleToHost(VkCommandBuffer commands, const Buffer& buffer);
 void makeVisibleToDevice(VkCommandBuffer commands, const Buffer& buffer);
 // After copies from it, so that copies into it do not overtake them.
 void makeWritable(VkCommandBuffer commands, const Buffer& buffer);
+
+// A buffer that shaders read texel by texel, each of four 32-bit numbers.
+class TexelBuffer {
+public:
+    TexelBuffer() = default;
+    // Throws Error beyond the device's limits.
+    TexelBuffer(const Context& context, VkFormat format, VkDeviceSize bytes, Memory memory);
+
+    VkBufferView view() const { return view_.get(); }
+    const Buffer& buffer() const { return buffer_; }
+    VkDeviceSize bytes() const { return buffer_.bytes(); }
+
+private:
+    Buffer buffer_; // freed after its view
+    Owned<VkBufferView, vkDestroyBufferView> view_;
+};
+
+// In the device's own memory, of what `write` leaves where it is told to.
+TexelBuffer uploadTexels(const Context& context, VkFormat format, VkDeviceSize bytes,
+                         const std::function<void(uint8_t*)>& write);
 
 } // namespace nacre

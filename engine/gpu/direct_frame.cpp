@@ -11,7 +11,8 @@
 namespace nacre {
 namespace {
 
-constexpr std::array kBindings = {ShaderBinding{kBindingInput, kTextureInput}};
+constexpr std::array kDisplayBindings = {ShaderBinding{kBindingInput, kTextureInput}};
+static_assert(kConstantHatched == 0 && kConstantToneCurve == 1);
 
 template <class T> std::vector<T> cut(const std::vector<T>& values, size_t first, size_t count)
 {
@@ -52,7 +53,11 @@ void copyRows(const Buffer& texels, Frame& frame, int first, int count)
 } // namespace
 
 DirectFrame::DirectFrame(const Context& context, DirectPass& direct)
-    : context_(context), direct_(direct), nearest_(makeSampler(context, VK_FILTER_NEAREST))
+    : context_(context), direct_(direct), nearest_(makeSampler(context, VK_FILTER_NEAREST)),
+      encoders_(context, {.fragmentShader = display_frag,
+                          .bindings = kDisplayBindings,
+                          .pushConstantBytes = sizeof(DisplayConstants),
+                          .targetFormat = kCodeFormat})
 {
 }
 
@@ -72,24 +77,6 @@ int DirectFrame::rowsAtOnce(VkExtent3D picture)
         band_ = makeTarget(context_, {picture.width, (picture.height + bands - 1) / bands, 1}, kFloatFormat);
     }
     return static_cast<int>(band_.extent().height);
-}
-
-const Pipeline& DirectFrame::encoder(const Look& look)
-{
-    static_assert(kConstantHatched == 0 && kConstantToneCurve == 1);
-    const std::pair key{int{look.hatched}, look.display.toneCurve};
-    auto found = encoders_.find(key);
-    if (found == encoders_.end()) {
-        const std::array constants = {key.first, key.second};
-        found = encoders_
-                    .emplace(key, Pipeline(context_, {.fragmentShader = display_frag,
-                                                      .constants = constants,
-                                                      .bindings = kBindings,
-                                                      .pushConstantBytes = sizeof(DisplayConstants),
-                                                      .targetFormat = kCodeFormat}))
-                    .first;
-    }
-    return found->second;
 }
 
 // One draw per material and group of lights; what they write adds up. `rows` are the target's, its offset the
@@ -119,7 +106,7 @@ void DirectFrame::recordRows(VkCommandBuffer commands, const PixelTextures& pixe
 void DirectFrame::recordPicture(VkCommandBuffer commands, const PixelTextures& pixels, const Inputs& inputs,
                                 const Look& look, const Texture& codes)
 {
-    const Pipeline& encode = encoder(look);
+    const Pipeline& encode = encoders_.with({look.hatched, look.display.toneCurve});
     const VkExtent3D size = codes.extent();
     const int height = static_cast<int>(size.height), atOnce = rowsAtOnce(size);
     for (int first = 0; first < height; first += atOnce) {

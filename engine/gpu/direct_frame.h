@@ -1,7 +1,4 @@
 #pragma once
-#include <map>
-#include <optional>
-
 #include "engine/gpu/direct_pass.h"
 #include "engine/gpu/residual_pass.h"
 #include "engine/scene/display.h"
@@ -44,12 +41,11 @@ private:
     void recordRows(VkCommandBuffer commands, const PixelTextures& pixels, const Inputs& inputs, VkRect2D rows,
                     bool coverage);
     void readRows(const Surface& pixels, const Inputs& inputs, Frame& frame, int first, int count);
-    const Pipeline& encoder(const Look& look);
 
     const Context& context_;
     DirectPass& direct_;
     Sampler nearest_;
-    std::map<std::pair<int, int>, Pipeline> encoders_; // by hatched and tone curve
+    Pipelines encoders_;
     Texture band_;
     Buffer readback_;     // of a band
     PixelTextures whole_; // 32-bit inputs, where one band holds the surface

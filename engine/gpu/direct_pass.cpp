@@ -10,7 +10,17 @@
 namespace nacre {
 namespace {
 
+// 256 bytes is the coarsest offset into a uniform buffer that a device may ask for.
+static_assert(kLightsPerGroup * sizeof(LightFrame) % 256 == 0);
+constexpr VkDeviceSize kGroupBytes = kLightsPerGroup * sizeof(LightFrame);
+
 constexpr std::array<uint8_t, 1> kNoCodes = {0};
+constexpr std::array kDirectBindings = {
+    ShaderBinding{kBindingNormals, kTextureInput}, ShaderBinding{kBindingAlbedo, kTextureInput},
+    ShaderBinding{kBindingTable, kTextureInput}, ShaderBinding{kBindingLights, kUniformInput},
+    ShaderBinding{kBindingHorizon, kTextureInput}};
+static_assert(kConstantLightCount == 0 && kConstantCoordinates == 1 && kConstantOneMaterial == 2 &&
+              kConstantPacked == 3 && kConstantCoverage == 4 && kConstantShadows == 5);
 
 // Those of the group that starts at `first`.
 void fillHorizon(DirectConstants& constants, const LightGroups& lights, size_t first, size_t count, uint32_t azimuths)
@@ -22,34 +32,35 @@ void fillHorizon(DirectConstants& constants, const LightGroups& lights, size_t f
 
 } // namespace
 
-DirectPass::DirectPass(const Context& context)
-    : context_(context), nearest_(makeSampler(context, VK_FILTER_NEAREST)),
-      linear_(makeSampler(context, VK_FILTER_LINEAR)), noHorizon_(uploadLayers(context, {1, 1, 1}, 1, kNoCodes))
+void LightGroups::upload(const Context& context, std::span<const Light> lights, const glm::vec3& view)
 {
+    const size_t groups = std::max<size_t>(1, (lights.size() + kLightsPerGroup - 1) / kLightsPerGroup);
+    if (buffer_.bytes() < groups * kGroupBytes) {
+        buffer_ = Buffer(context, groups * kGroupBytes, VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT);
+    }
+    directions_.clear();
+    for (const Light& light : lights) {
+        directions_.push_back(light.direction);
+    }
+    view_ = view;
+    std::transform(lights.begin(), lights.end(), static_cast<LightFrame*>(buffer_.mapped()),
+                   [&](const Light& light) { return lightFrame(light.direction, view, light.irradiance); });
 }
 
-const Pipeline& DirectPass::pipeline(const Variant& variant)
+ShaderInput LightGroups::group(size_t index) const
 {
-    auto found = pipelines_.find(variant);
-    if (found == pipelines_.end()) {
-        static constexpr std::array kBindings = {
-            ShaderBinding{kBindingNormals, kTextureInput}, ShaderBinding{kBindingAlbedo, kTextureInput},
-            ShaderBinding{kBindingTable, kTextureInput}, ShaderBinding{kBindingLights, kUniformInput},
-            ShaderBinding{kBindingHorizon, kTextureInput}};
-        static_assert(kConstantLightCount == 0 && kConstantCoordinates == 1 && kConstantOneMaterial == 2 &&
-                      kConstantPacked == 3 && kConstantCoverage == 4 && kConstantShadows == 5);
-        const std::array constants = {variant.lightCount, variant.coordinates, variant.oneMaterial,
-                                      variant.packed,     variant.coverage,    variant.shadows};
-        found = pipelines_
-                    .emplace(variant, Pipeline(context_, {.fragmentShader = direct_frag,
-                                                          .constants = constants,
-                                                          .bindings = kBindings,
-                                                          .pushConstantBytes = sizeof(DirectConstants),
-                                                          .targetFormat = kFloatFormat,
-                                                          .blend = Blend::add}))
-                    .first;
-    }
-    return found->second;
+    return uniformInput(kBindingLights, buffer_, index * kGroupBytes, kGroupBytes);
+}
+
+DirectPass::DirectPass(const Context& context)
+    : context_(context), pipelines_(context, {.fragmentShader = direct_frag,
+                                              .bindings = kDirectBindings,
+                                              .pushConstantBytes = sizeof(DirectConstants),
+                                              .targetFormat = kFloatFormat,
+                                              .blend = Blend::add}),
+      nearest_(makeSampler(context, VK_FILTER_NEAREST)), linear_(makeSampler(context, VK_FILTER_LINEAR)),
+      noHorizon_(uploadLayers(context, {1, 1, 1}, 1, kNoCodes))
+{
 }
 
 void DirectPass::record(VkCommandBuffer commands, const Inputs& inputs, const LightGroups& lights, size_t first,
@@ -74,13 +85,10 @@ void DirectPass::record(VkCommandBuffer commands, const Inputs& inputs, const Li
         if (inputs.horizon) {
             fillHorizon(constants, lights, light, static_cast<size_t>(count), horizon.layers());
         }
-        const Variant variant{count,
-                              domain.coordinates,
-                              inputs.albedo == nullptr,
-                              inputs.normals.format() == kPackedNormalFormat,
-                              inputs.coverage && inputs.table.knowsCoverage,
-                              inputs.horizon != nullptr};
-        draw(context_, commands, pipeline(variant), shaderInputs, bytesOf(constants));
+        const Pipeline& pipeline = pipelines_.with(
+            {count, domain.coordinates, inputs.albedo == nullptr, inputs.normals.format() == kPackedNormalFormat,
+             inputs.coverage && inputs.table.knowsCoverage, inputs.horizon != nullptr});
+        draw(context_, commands, pipeline, shaderInputs, bytesOf(constants));
     }
 }
 

@@ -1,12 +1,30 @@
 #pragma once
-#include <map>
-#include <tuple>
+#include <span>
+#include <vector>
 
-#include "engine/gpu/light_groups.h"
 #include "engine/gpu/pass.h"
 #include "engine/gpu/surface_textures.h"
+#include "engine/lights/light.h"
 
 namespace nacre {
+
+// Lights as shaders read them, on the device, in groups of kLightsPerGroup.
+class LightGroups {
+public:
+    // view is unit, towards the viewer for whom they are.
+    void upload(const Context& context, std::span<const Light> lights, const glm::vec3& view);
+
+    size_t lightCount() const { return directions_.size(); }
+    const glm::vec3& direction(size_t light) const { return directions_[light]; }
+    const glm::vec3& view() const { return view_; }
+    ShaderInput group(size_t index) const;
+    VkDeviceSize bytes() const { return buffer_.bytes(); }
+
+private:
+    Buffer buffer_;
+    std::vector<glm::vec3> directions_;
+    glm::vec3 view_{0, 0, 1};
+};
 
 // Draws shaders/direct.frag: one material's radiance under a range of lights, added to the target, which has
 // kFloatFormat and is being rendered to.
@@ -27,14 +45,8 @@ public:
     void record(VkCommandBuffer commands, const Inputs& inputs, const LightGroups& lights, size_t first, size_t last);
 
 private:
-    struct Variant {
-        int lightCount, coordinates, oneMaterial, packed, coverage, shadows;
-        auto operator<=>(const Variant&) const = default;
-    };
-    const Pipeline& pipeline(const Variant& variant);
-
     const Context& context_;
-    std::map<Variant, Pipeline> pipelines_; // made when first needed
+    Pipelines pipelines_;
     Sampler nearest_;
     Sampler linear_;
     Texture noHorizon_; // bound where there are no shadows, but not read

@@ -1,7 +1,7 @@
 #include "engine/gpu/renderer.h"
 
 #include <algorithm>
-#include <cassert>
+#include <array>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -9,11 +9,17 @@
 #include "engine/files/error.h"
 #include "engine/scene/scene_residual.h"
 #include "engine/surface/sampled_pixels.h"
+#include "false_colour_frag.h"
+#include "shared/layout.h"
 
 namespace nacre {
 namespace {
 
 constexpr float kMiddleGrey = 0.2140f; // linear, of code 0.5: what a layer by itself is drawn about
+
+constexpr std::array kFalseColourBindings = {ShaderBinding{kBindingNormals, kTextureInput},
+                                             ShaderBinding{kBindingAlbedo, kTextureInput}};
+static_assert(kConstantModulated == 0 && kConstantShow == 1);
 
 bool dependsOnLights(Show show)
 {
@@ -30,7 +36,11 @@ bool dependsOnDisplay(Show show)
 Renderer::Renderer(const Context& context, VkDeviceSize cacheBytes)
     : context_(context), direct_(context), residualPass_(context), balls_(context, direct_, cacheBytes),
       cacheBytes_(cacheBytes), ballFrame_(context), directFrame_(context, direct_), exposureFrame_(context, direct_),
-      falseColours_(context)
+      nearest_(makeSampler(context, VK_FILTER_NEAREST)),
+      falseColours_(context, {.fragmentShader = false_colour_frag,
+                              .bindings = kFalseColourBindings,
+                              .pushConstantBytes = sizeof(FalseColourConstants),
+                              .targetFormat = kCodeFormat})
 {
 }
 
@@ -230,9 +240,12 @@ void Renderer::drawFalseColours()
 {
     const FalseColourConstants constants = falseColourConstants(lights_, view_, surface_.materials.size());
     const PixelTextures& from = pixels();
+    const std::array inputs = {textureInput(kBindingNormals, nearest_, from.normals),
+                               textureInput(kBindingAlbedo, nearest_, albedoOrAny(from))};
+    const Pipeline& pipeline = falseColours_.with({!plain_, static_cast<int>(show_)});
     drawInto([&](VkCommandBuffer commands) {
         beginRendering(commands, picture_->texture, Load::clear);
-        falseColours_.record(commands, from, plain_, show_, constants);
+        draw(context_, commands, pipeline, inputs, bytesOf(constants));
         vkCmdEndRendering(commands);
     });
 }

@@ -6,9 +6,8 @@
 
 #include "engine/gpu/ball_frame.h"
 #include "engine/gpu/direct_frame.h"
-#include "engine/gpu/false_colour_pass.h"
-#include "engine/gpu/light_groups.h"
 #include "engine/gpu/surface_textures.h"
+#include "engine/scene/false_colour.h"
 #include "engine/scene/scene.h"
 
 namespace nacre {
@@ -96,7 +95,8 @@ private:
     BallFrame ballFrame_;
     DirectFrame directFrame_;
     DirectFrame exposureFrame_; // of exposurePixels_
-    FalseColourPass falseColours_;
+    Sampler nearest_;
+    Pipelines falseColours_;
 
     Surface surface_;
     bool plain_ = false;

@@ -1,6 +1,5 @@
 #pragma once
 #include <array>
-#include <map>
 
 #include "engine/gpu/pass.h"
 #include "engine/gpu/surface_textures.h"
@@ -26,10 +25,8 @@ public:
     VkDeviceSize bytes() const { return weights_.bytes() + none_.bytes(); }
 
 private:
-    const Pipeline& pipeline(const PixelTextures& pixels);
-
     const Context& context_;
-    std::map<std::array<int, 3>, Pipeline> pipelines_; // by packed, fours of components and modulated
+    Pipelines pipelines_;
     Sampler nearest_;
     TexelBuffer weights_;
     TexelBuffer none_; // one texel, in place of components

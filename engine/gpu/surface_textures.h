@@ -1,7 +1,7 @@
 #pragma once
 #include <vector>
 
-#include "engine/gpu/texel_buffer.h"
+#include "engine/gpu/buffer.h"
 #include "engine/gpu/texture.h"
 #include "engine/surface/surface.h"
 

@@ -24,9 +24,9 @@ struct MeshPart {
 // Vertices in the file's own axes (x right, y up, z towards the viewer where nothing else is asked for).
 struct Mesh {
     std::vector<glm::vec3> positions;
-    std::vector<glm::vec3> normals;  // unit
+    std::vector<glm::vec3> normals;  // unit, or 0 where there is none
     std::vector<glm::vec2> uvs;      // v up; empty, or one a vertex
-    std::vector<glm::vec4> tangents; // xyz unit, w = handedness of the bitangent; empty, or one a vertex
+    std::vector<glm::vec4> tangents; // xyz unit or 0, w = handedness of the bitangent; empty, or one a vertex
     std::vector<uint32_t> indices;   // three a triangle
     std::vector<MeshPart> parts;     // in the order of their indices
 

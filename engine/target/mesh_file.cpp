@@ -3,19 +3,19 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
+#include <span>
 
 #include <assimp/Importer.hpp>
+#include <assimp/config.h>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 
 #include "engine/files/error.h"
-#include "engine/target/mesh_file_end.h"
-#include "engine/target/mesh_normals.h"
-#include "engine/target/mesh_tangents.h"
-#include "engine/target/mesh_texture.h"
+#include "engine/files/temporary_folder.h"
+#include "engine/files/whole_file.h"
+#include "engine/target/ply_size.h"
 
 namespace nacre {
 namespace fs = std::filesystem;
@@ -25,6 +25,7 @@ namespace {
 constexpr const char* kReadable = ".obj, .ply, .gltf, .glb or .stl";
 // A triangle's height over its longest side below which it is a line: rounding of float coordinates.
 constexpr float kLeastHeight = 1e-7f;
+constexpr float kCreaseAngle = 60; // degrees between triangles over which normals are not smoothed
 
 std::string lowerExtension(const fs::path& file)
 {
@@ -37,6 +38,18 @@ std::string lowerExtension(const fs::path& file)
 glm::vec3 vec3Of(const aiVector3D& v)
 {
     return {v.x, v.y, v.z};
+}
+
+bool isFinite(const aiVector3D& v)
+{
+    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+
+// Of length 1; 0 where there is no direction.
+glm::vec3 unitOf(const aiVector3D& v)
+{
+    const float size = v.Length();
+    return size > 0 && std::isfinite(size) ? vec3Of(v) / size : glm::vec3(0);
 }
 
 std::string firstLine(const std::string& text)
@@ -58,59 +71,128 @@ std::string partName(const aiScene& scene, const aiMesh& from, size_t index)
     return mesh.empty() || material.empty() ? mesh + material : mesh + ":" + material;
 }
 
-void appendVertices(const aiMesh& from, const aiMatrix4x4& toWorld, bool withUvs, Mesh& mesh)
+NormalMap embeddedNormalMap(const fs::path& mesh, const aiTexture& texture, NormalY normalY)
 {
-    // Normals turn with the inverse transpose.
-    const aiMatrix3x3 turn = aiMatrix3x3(toWorld).Inverse().Transpose();
-    for (unsigned i = 0; i < from.mNumVertices; ++i) {
-        mesh.positions.push_back(vec3Of(toWorld * from.mVertices[i]));
-        const glm::vec3 n = from.HasNormals() ? vec3Of(turn * from.mNormals[i]) : glm::vec3(0);
-        const float size = glm::length(n);
-        mesh.normals.push_back(size > 0 && std::isfinite(size) ? n / size : glm::vec3(0));
-        if (withUvs) {
-            const glm::vec3 uv = from.HasTextureCoords(0) ? vec3Of(from.mTextureCoords[0][i]) : glm::vec3(0);
-            mesh.uvs.push_back(std::isfinite(uv.x) && std::isfinite(uv.y) ? glm::vec2(uv) : glm::vec2(0));
-        }
+    if (texture.mHeight != 0) { // raw texels, which no format that is read here has
+        throw Error(mesh, "embeds a normal map without a picture format", "PNG or JPEG");
+    }
+    const TemporaryFolder folder; // picture readers want a file
+    const fs::path file = folder.path() / fmt::format("embedded.{}", texture.achFormatHint);
+    const auto* bytes = reinterpret_cast<const unsigned char*>(texture.pcData);
+    writeWholeFile(file, std::span(bytes, texture.mWidth));
+    try {
+        return loadNormalMap(file, normalY);
+    } catch (const Error& error) {
+        throw Error(mesh, "its embedded normal map: " + std::string(error.what()), "a normal map in PNG or JPEG");
     }
 }
 
-bool isFinite(const glm::vec3& v)
+// The tangent-space normal map that a material names, beside the mesh or within the file; null where it names none.
+// Bump maps (heights) do not count.
+std::shared_ptr<const NormalMap> materialNormalMap(const fs::path& mesh, const aiScene& scene,
+                                                   const aiMaterial& material, NormalY normalY)
 {
-    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+    aiString name;
+    if (material.GetTexture(aiTextureType_NORMALS, 0, &name) != aiReturn_SUCCESS) {
+        return nullptr;
+    }
+    const aiTexture* texture = scene.GetEmbeddedTexture(name.C_Str());
+    return std::make_shared<const NormalMap>(texture ? embeddedNormalMap(mesh, *texture, normalY)
+                                                     : loadNormalMap(mesh.parent_path() / name.C_Str(), normalY));
 }
 
-bool isDegenerate(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c)
+bool isDegenerate(const aiVector3D& a, const aiVector3D& b, const aiVector3D& c)
 {
-    const glm::dvec3 ab = glm::dvec3(b) - glm::dvec3(a), ac = glm::dvec3(c) - glm::dvec3(a), bc = ac - ab;
+    const glm::dvec3 ab = vec3Of(b) - vec3Of(a), ac = vec3Of(c) - vec3Of(a), bc = ac - ab;
     const double longest = std::max({glm::dot(ab, ab), glm::dot(ac, ac), glm::dot(bc, bc)}); // squared
     return !(glm::length(glm::cross(ab, ac)) > kLeastHeight * longest);
 }
 
-// Vertices without a place stay behind: nothing refers to them.
-void appendTriangles(const fs::path& file, const aiMesh& from, size_t firstVertex, Mesh& mesh)
+// Whether the triangle can be drawn; counts it where it cannot.
+bool isUsable(const fs::path& file, const aiMesh& mesh, const aiFace& face, Mesh& counts)
 {
-    for (unsigned f = 0; f < from.mNumFaces; ++f) {
-        const aiFace& face = from.mFaces[f];
-        if (face.mNumIndices != 3) {
-            continue; // a point or a line
+    if (face.mNumIndices != 3) {
+        return false; // a point or a line
+    }
+    for (unsigned k = 0; k < 3; ++k) {
+        if (face.mIndices[k] >= mesh.mNumVertices) {
+            throw Error(file, fmt::format("names vertex {} of {}", face.mIndices[k], mesh.mNumVertices),
+                        "faces of vertices that are there");
         }
-        size_t v[3];
-        for (int k = 0; k < 3; ++k) {
-            if (face.mIndices[k] >= from.mNumVertices) {
-                throw Error(file, fmt::format("names vertex {} of {}", face.mIndices[k], from.mNumVertices),
-                            "faces of vertices that are there");
+    }
+    const aiVector3D &a = mesh.mVertices[face.mIndices[0]], &b = mesh.mVertices[face.mIndices[1]],
+                     &c = mesh.mVertices[face.mIndices[2]];
+    const bool finite = isFinite(a) && isFinite(b) && isFinite(c), degenerate = finite && isDegenerate(a, b, c);
+    counts.notFiniteTriangles += !finite;
+    counts.degenerateTriangles += degenerate;
+    return finite && !degenerate;
+}
+
+void drop(aiVector3D*& values)
+{
+    delete[] values; // as aiMesh does
+    values = nullptr;
+}
+
+void pick(aiVector3D*& values, const std::vector<unsigned>& from)
+{
+    if (values) {
+        auto* picked = new aiVector3D[from.size()];
+        std::transform(from.begin(), from.end(), picked, [&](unsigned i) { return values[i]; });
+        drop(values);
+        values = picked;
+    }
+}
+
+// Leaves the triangles that can be drawn, each with vertices of its own: where triangles share vertices Assimp takes
+// the last one's normal and tangent for all. Normals stay where every vertex has one.
+void separateTriangles(const fs::path& file, aiMesh& mesh, Mesh& counts)
+{
+    std::vector<unsigned> corners;
+    unsigned kept = 0;
+    for (unsigned f = 0; f < mesh.mNumFaces; ++f) {
+        if (isUsable(file, mesh, mesh.mFaces[f], counts)) {
+            std::swap(mesh.mFaces[kept].mIndices, mesh.mFaces[f].mIndices);
+            std::swap(mesh.mFaces[kept].mNumIndices, mesh.mFaces[f].mNumIndices);
+            unsigned* indices = mesh.mFaces[kept++].mIndices;
+            for (unsigned k = 0; k < 3; ++k) {
+                corners.push_back(std::exchange(indices[k], static_cast<unsigned>(corners.size())));
             }
-            v[k] = firstVertex + face.mIndices[k];
         }
-        const glm::vec3 &a = mesh.positions[v[0]], &b = mesh.positions[v[1]], &c = mesh.positions[v[2]];
-        if (!isFinite(a) || !isFinite(b) || !isFinite(c)) {
-            ++mesh.notFiniteTriangles;
-        } else if (isDegenerate(a, b, c)) {
-            ++mesh.degenerateTriangles;
-        } else {
-            for (const size_t index : v) {
-                mesh.indices.push_back(static_cast<uint32_t>(index));
-            }
+    }
+    const bool hasNormals = mesh.HasNormals() && std::all_of(corners.begin(), corners.end(), [&](unsigned i) {
+                                return unitOf(mesh.mNormals[i]) != glm::vec3(0);
+                            });
+    if (!hasNormals) {
+        drop(mesh.mNormals);
+    }
+    drop(mesh.mTangents), drop(mesh.mBitangents);
+    for (aiVector3D** values : {&mesh.mVertices, &mesh.mNormals, &mesh.mTextureCoords[0]}) {
+        pick(*values, corners);
+    }
+    mesh.mNumFaces = kept;
+    mesh.mNumVertices = static_cast<unsigned>(corners.size());
+    mesh.mPrimitiveTypes = kept > 0 ? aiPrimitiveType_TRIANGLE : 0;
+    counts.normalsWereMade = counts.normalsWereMade || (kept > 0 && !hasNormals);
+}
+
+void appendVertices(const aiMesh& from, const aiMatrix4x4& toWorld, Mesh& mesh, bool withUvs, bool withTangents)
+{
+    const aiMatrix3x3 turn(toWorld);
+    const aiMatrix3x3 normalTurn = aiMatrix3x3(turn).Inverse().Transpose();
+    const float side = turn.Determinant() < 0 ? -1.0f : 1.0f;
+    for (unsigned i = 0; i < from.mNumVertices; ++i) {
+        mesh.positions.push_back(vec3Of(toWorld * from.mVertices[i]));
+        mesh.normals.push_back(unitOf(normalTurn * from.mNormals[i]));
+        if (withUvs) {
+            const aiVector3D uv = from.HasTextureCoords(0) ? from.mTextureCoords[0][i] : aiVector3D();
+            mesh.uvs.push_back(isFinite(uv) ? glm::vec2(uv.x, uv.y) : glm::vec2(0));
+        }
+        if (withTangents) {
+            const aiVector3D t = from.mTangents ? from.mTangents[i] : aiVector3D(),
+                             b = from.mBitangents ? from.mBitangents[i] : aiVector3D();
+            const float handedness = (from.mNormals[i] ^ t) * b < 0 ? -side : side;
+            mesh.tangents.push_back(glm::vec4(unitOf(turn * t), handedness));
         }
     }
 }
@@ -118,40 +200,31 @@ void appendTriangles(const fs::path& file, const aiMesh& from, size_t firstVerte
 struct Reader {
     const fs::path& file;
     const aiScene& scene;
-    const MeshFileOptions& options;
+    std::vector<std::shared_ptr<const NormalMap>> normalMaps; // of each material
     bool withUvs = false;
+    bool withTangents = false;
     Mesh mesh{};
-
-    std::map<unsigned, std::shared_ptr<const NormalMap>> normalMaps{}; // by material
-
-    std::shared_ptr<const NormalMap> normalMapOf(unsigned material)
-    {
-        const auto [at, isNew] = normalMaps.try_emplace(material);
-        if (isNew) {
-            NormalMap map = materialNormalMap(file, scene, *scene.mMaterials[material], options.normalY);
-            at->second = map.width > 0 ? std::make_shared<const NormalMap>(std::move(map)) : nullptr;
-        }
-        return at->second;
-    }
 
     void appendMesh(const aiMesh& from, const aiMatrix4x4& toWorld)
     {
+        if (from.mNumFaces == 0) {
+            return;
+        }
         const size_t firstVertex = mesh.positions.size();
         if (firstVertex + from.mNumVertices > std::numeric_limits<uint32_t>::max()) {
             throw Error(file, "has more than 4294967295 vertices", "a smaller mesh");
         }
-        MeshPart part{partName(scene, from, mesh.parts.size()), mesh.indices.size()};
-        part.hasUvs = from.HasTextureCoords(0);
-        appendVertices(from, toWorld, withUvs, mesh);
-        appendTriangles(file, from, firstVertex, mesh);
-        part.indexCount = mesh.indices.size() - part.firstIndex;
-        if (part.indexCount == 0) {
-            return;
+        mesh.parts.push_back({partName(scene, from, mesh.parts.size()), mesh.indices.size(), from.mNumVertices,
+                              from.HasTextureCoords(0), normalMaps[from.mMaterialIndex]});
+        const MeshPart& part = mesh.parts.back();
+        if (part.normalMap && !part.hasUvs) {
+            throw Error(file, fmt::format("part '{}' has a normal map but no texture coordinates", part.name),
+                        "a mesh with UVs, or no normal map");
         }
-        if (options.normalMap.empty()) {
-            part.normalMap = normalMapOf(from.mMaterialIndex);
+        appendVertices(from, toWorld, mesh, withUvs, withTangents);
+        for (size_t i = firstVertex; i < mesh.positions.size(); ++i) {
+            mesh.indices.push_back(static_cast<uint32_t>(i));
         }
-        mesh.parts.push_back(std::move(part));
     }
 
     void appendNode(const aiNode& node, const aiMatrix4x4& above)
@@ -166,54 +239,38 @@ struct Reader {
     }
 };
 
-Mesh readScene(const fs::path& file, const MeshFileOptions& options)
+void requireFaces(const fs::path& file, const aiScene& scene, const Mesh& counts)
 {
-    Assimp::Importer importer;
-    const aiScene* scene = importer.ReadFile(file.string(), aiProcess_Triangulate);
-    if (!scene) {
-        throw Error(file, "cannot be read: " + firstLine(importer.GetErrorString()), "a whole, undamaged mesh file");
+    for (unsigned i = 0; i < scene.mNumMeshes; ++i) {
+        if (scene.mMeshes[i]->mNumFaces > 0) {
+            return;
+        }
     }
-    Reader reader{file, *scene, options};
-    for (unsigned i = 0; i < scene->mNumMeshes; ++i) {
-        reader.withUvs = reader.withUvs || scene->mMeshes[i]->HasTextureCoords(0);
-    }
-    if (scene->mRootNode) {
-        reader.appendNode(*scene->mRootNode, aiMatrix4x4());
-    }
-    return std::move(reader.mesh);
-}
-
-void requireFaces(const fs::path& file, const Mesh& mesh)
-{
-    if (!mesh.indices.empty()) {
-        return;
-    }
-    const size_t left = mesh.degenerateTriangles + mesh.notFiniteTriangles;
+    const size_t left = counts.degenerateTriangles + counts.notFiniteTriangles;
     throw Error(file,
                 left == 0 ? "has no faces"
                           : fmt::format("has no usable face: {} without an area, {} with a vertex that is no number",
-                                        mesh.degenerateTriangles, mesh.notFiniteTriangles),
+                                        counts.degenerateTriangles, counts.notFiniteTriangles),
                 "a mesh with triangles or polygons");
 }
 
-void applyNormalMap(const fs::path& file, const MeshFileOptions& options, Mesh& mesh)
+// One a material: the one that was asked for, or the material's own where a part shows it.
+std::vector<std::shared_ptr<const NormalMap>> loadNormalMaps(const fs::path& file, const aiScene& scene,
+                                                             const MeshFileOptions& options)
 {
-    std::shared_ptr<const NormalMap> map;
+    std::vector<std::shared_ptr<const NormalMap>> maps(scene.mNumMaterials);
     if (!options.normalMap.empty()) {
-        map = std::make_shared<const NormalMap>(loadNormalMap(options.normalMap, options.normalY));
+        const NormalMap map = loadNormalMap(options.normalMap, options.normalY);
+        std::fill(maps.begin(), maps.end(), std::make_shared<const NormalMap>(map));
+        return maps;
     }
-    bool mapped = false;
-    for (MeshPart& part : mesh.parts) {
-        part.normalMap = map ? map : part.normalMap;
-        if (part.normalMap && !part.hasUvs) {
-            throw Error(file, fmt::format("part '{}' has a normal map but no texture coordinates", part.name),
-                        "a mesh with UVs, or no normal map");
+    for (unsigned i = 0; i < scene.mNumMeshes; ++i) {
+        const unsigned material = scene.mMeshes[i]->mMaterialIndex;
+        if (scene.mMeshes[i]->mNumFaces > 0 && !maps[material]) {
+            maps[material] = materialNormalMap(file, scene, *scene.mMaterials[material], options.normalY);
         }
-        mapped = mapped || part.normalMap;
     }
-    if (mapped) {
-        makeTangents(mesh);
-    }
+    return maps;
 }
 
 } // namespace
@@ -234,12 +291,33 @@ Mesh loadMesh(const fs::path& file, const MeshFileOptions& options)
     if (!isMeshFile(file)) {
         throw Error(file, "is no mesh that can be read", kReadable);
     }
-    requireWholeMeshFile(file);
-    Mesh mesh = readScene(file, options);
-    requireFaces(file, mesh);
-    smoothNormals(mesh);
-    applyNormalMap(file, options, mesh);
-    return mesh;
+    if (!fs::is_regular_file(file)) {
+        throw Error(file, fs::exists(file) ? "is no file" : "does not exist", "a mesh file");
+    }
+    if (lowerExtension(file) == ".ply") {
+        requireWholePly(file);
+    }
+    Assimp::Importer importer;
+    importer.SetPropertyFloat(AI_CONFIG_PP_GSN_MAX_SMOOTHING_ANGLE, kCreaseAngle);
+    const aiScene* read = importer.ReadFile(file.string(), aiProcess_Triangulate);
+    if (!read) {
+        throw Error(file, "cannot be read: " + firstLine(importer.GetErrorString()), "a whole, undamaged mesh file");
+    }
+    Reader reader{file, *read, std::vector<std::shared_ptr<const NormalMap>>(read->mNumMaterials)};
+    for (unsigned i = 0; i < read->mNumMeshes; ++i) {
+        separateTriangles(file, *read->mMeshes[i], reader.mesh);
+        reader.withUvs = reader.withUvs || read->mMeshes[i]->HasTextureCoords(0);
+    }
+    requireFaces(file, *read, reader.mesh);
+    reader.normalMaps = loadNormalMaps(file, *read, options);
+    reader.withTangents =
+        std::any_of(reader.normalMaps.begin(), reader.normalMaps.end(), [](auto& map) { return map; });
+    importer.ApplyPostProcessing(aiProcess_GenSmoothNormals |
+                                 (reader.withTangents ? unsigned{aiProcess_CalcTangentSpace} : 0u));
+    if (read->mRootNode) {
+        reader.appendNode(*read->mRootNode, aiMatrix4x4());
+    }
+    return std::move(reader.mesh);
 }
 
 } // namespace nacre

@@ -15,9 +15,10 @@ struct MeshFileOptions {
     NormalY normalY = NormalY::gl;
 };
 
-// Reads a mesh, triangulated, its parts named by mesh and material. Normals that the file lacks are made smooth
-// (smoothNormals); tangents are made where a normal map needs them. Throws Error (data): another extension, a file that
-// ends too early or is damaged, no faces left, a normal map without texture coordinates.
+// Reads a mesh, triangulated, its parts named by mesh and material. Where the file lacks a normal, all of its part are
+// made: smooth, but over edges of more than 60 degrees. Throws Error (data): another extension, a file that Assimp
+// refuses, a PLY that is cut off, no faces left, a normal map without texture coordinates. An OBJ or text STL that is
+// cut off after a whole face cannot be told from a smaller one.
 Mesh loadMesh(const std::filesystem::path& file, const MeshFileOptions& options = {});
 
 } // namespace nacre

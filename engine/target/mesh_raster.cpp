@@ -1,16 +1,18 @@
 #include "engine/target/mesh_raster.h"
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
 #include <map>
-#include <optional>
 
 #include "engine/files/parallel_for.h"
 #include "engine/gpu/buffer.h"
+#include "engine/gpu/check.h"
 #include "engine/gpu/pass.h"
-#include "engine/target/depth_buffer.h"
-#include "engine/target/mesh_pipeline.h"
 #include "engine/target/mesh_resolve.h"
 #include "engine/target/normal_map_scale.h"
+#include "mesh_view_frag.h"
+#include "mesh_view_vert.h"
 #include "shared/mesh_layout.h"
 
 namespace nacre {
@@ -18,6 +20,95 @@ namespace {
 
 constexpr size_t kTrianglesPerUpload = 1 << 17;    // 18 MiB of vertices
 constexpr VkDeviceSize kLargestTarget = 512 << 20; // bytes of samples
+
+// One corner of a triangle as shaders/mesh_view.vert reads it.
+struct MeshVertex {
+    glm::vec3 point;
+    glm::vec3 normal;
+    glm::vec4 tangent;
+    glm::vec2 uv;
+};
+
+constexpr VkFormat kDepthFormat = VK_FORMAT_D32_SFLOAT;
+
+VkImage createDepthImage(VkDevice device, VkExtent3D extent)
+{
+    const VkImageCreateInfo info{.sType = VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO,
+                                 .imageType = VK_IMAGE_TYPE_2D,
+                                 .format = kDepthFormat,
+                                 .extent = extent,
+                                 .mipLevels = 1,
+                                 .arrayLayers = 1,
+                                 .samples = VK_SAMPLE_COUNT_1_BIT,
+                                 .tiling = VK_IMAGE_TILING_OPTIMAL,
+                                 .usage = VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT,
+                                 .initialLayout = VK_IMAGE_LAYOUT_UNDEFINED};
+    VkImage image = VK_NULL_HANDLE;
+    checkVulkan(vkCreateImage(device, &info, nullptr, &image), "vkCreateImage");
+    return image;
+}
+
+VkDeviceMemory allocateDepth(const Context& context, VkImage image)
+{
+    VkMemoryRequirements requirements;
+    vkGetImageMemoryRequirements(context.device(), image, &requirements);
+    const VkMemoryAllocateInfo info{
+        .sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO,
+        .allocationSize = requirements.size,
+        .memoryTypeIndex = context.memoryType(requirements.memoryTypeBits, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT)};
+    VkDeviceMemory memory = VK_NULL_HANDLE;
+    checkVulkan(vkAllocateMemory(context.device(), &info, nullptr, &memory), "vkAllocateMemory");
+    return memory;
+}
+
+VkImageView createDepthView(VkDevice device, VkImage image)
+{
+    const VkImageViewCreateInfo info{
+        .sType = VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO,
+        .image = image,
+        .viewType = VK_IMAGE_VIEW_TYPE_2D,
+        .format = kDepthFormat,
+        .subresourceRange = {.aspectMask = VK_IMAGE_ASPECT_DEPTH_BIT, .levelCount = 1, .layerCount = 1}};
+    VkImageView view = VK_NULL_HANDLE;
+    checkVulkan(vkCreateImageView(device, &info, nullptr, &view), "vkCreateImageView");
+    return view;
+}
+
+// Depth in 32-bit floats, for one target.
+class DepthBuffer {
+public:
+    DepthBuffer(const Context& context, VkExtent3D extent)
+        : image_(context.device(), createDepthImage(context.device(), extent))
+    {
+        memory_ = {context.device(), allocateDepth(context, image_.get())};
+        checkVulkan(vkBindImageMemory(context.device(), image_.get(), memory_.get(), 0), "vkBindImageMemory");
+        view_ = {context.device(), createDepthView(context.device(), image_.get())};
+    }
+    VkImage image() const { return image_.get(); }
+    VkImageView view() const { return view_.get(); }
+
+private:
+    Owned<VkDeviceMemory, vkFreeMemory> memory_; // freed after the image and its view
+    Owned<VkImage, vkDestroyImage> image_;
+    Owned<VkImageView, vkDestroyImageView> view_;
+};
+
+VkVertexInputAttributeDescription attribute(int location, VkFormat format, size_t offset)
+{
+    return {.location = static_cast<uint32_t>(location),
+            .binding = 0,
+            .format = format,
+            .offset = static_cast<uint32_t>(offset)};
+}
+
+const std::array kAttributes = {attribute(kMeshPoint, VK_FORMAT_R32G32B32_SFLOAT, offsetof(MeshVertex, point)),
+                                attribute(kMeshNormal, VK_FORMAT_R32G32B32_SFLOAT, offsetof(MeshVertex, normal)),
+                                attribute(kMeshTangent, VK_FORMAT_R32G32B32A32_SFLOAT, offsetof(MeshVertex, tangent)),
+                                attribute(kMeshUv, VK_FORMAT_R32G32_SFLOAT, offsetof(MeshVertex, uv))};
+const VertexInput kVertices{
+    .shader = mesh_view_vert, .stride = sizeof(MeshVertex), .attributes = kAttributes, .depthFormat = kDepthFormat};
+constexpr std::array kMeshBindings = {ShaderBinding{kBindingMeshNormalMap, kTextureInput}};
+static_assert(kConstantMeshMapped == 0, "the first of the constants");
 
 // The depth buffer's part in a barrier, before its first use and between uploads.
 void depthBarrier(VkCommandBuffer commands, const DepthBuffer& depth, bool first)
@@ -64,7 +155,12 @@ public:
           target_(makeTarget(context, extent_, kFloatFormat)), depth_(context, extent_),
           vertices_(context, kTrianglesPerUpload * 3 * sizeof(MeshVertex), VK_BUFFER_USAGE_VERTEX_BUFFER_BIT),
           nearest_(makeSampler(context, VK_FILTER_NEAREST)), noMap_(uploadNormalMap(context, NormalMap(1, 1))),
-          plain_(meshPipeline(context, false))
+
+          pipelines_(context, {.fragmentShader = mesh_view_frag,
+                               .bindings = kMeshBindings,
+                               .pushConstantBytes = sizeof(MeshConstants),
+                               .targetFormat = kFloatFormat,
+                               .vertices = &kVertices})
     {
     }
 
@@ -106,9 +202,6 @@ private:
     {
         if (!part.normalMap) {
             return nullptr;
-        }
-        if (!mapped_) {
-            mapped_ = meshPipeline(context_, true);
         }
         const auto [at, isNew] = maps_.try_emplace(part.normalMap.get());
         if (isNew) {
@@ -177,7 +270,7 @@ private:
                                       1.001f * reach,
                                       static_cast<float>(samplesPerSide_),
                                       label};
-        const Pipeline& pipeline = map ? *mapped_ : plain_;
+        const Pipeline& pipeline = pipelines_.with({map != nullptr});
         beginRendering(commands);
         vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline.get());
         const ShaderInput input = textureInput(kBindingMeshNormalMap, nearest_, map ? *map : noMap_);
@@ -204,9 +297,8 @@ private:
     DepthBuffer depth_;
     Buffer vertices_;
     Sampler nearest_;
-    Texture noMap_; // the shader has a place for one
-    Pipeline plain_;
-    std::optional<Pipeline> mapped_;
+    Texture noMap_;       // the shader has a place for one
+    Pipelines pipelines_; // without and with a normal map
     std::map<const NormalMap*, Texture> maps_;
     bool isEmpty_ = true;
 };
