@@ -1,24 +1,28 @@
 #pragma once
-#include <cstdint>
+#include <optional>
 #include <string>
-#include <vector>
 
-#include "engine/scene/display.h"
-#include "engine/scene/scene.h"
 #include "engine/viewer/controls.h"
+#include "engine/viewer/view_pictures.h"
 
 namespace nacre {
 
-inline constexpr float kDifferenceGain = 2; // of codes, around middle grey
+// A photograph or its difference to the render in the render's place, and figures of both.
+class PhotographComparison {
+public:
+    explicit PhotographComparison(const Context& context) : context_(context) {}
 
-// The picture fitted into another size as surfaces are (fittedPixels), 0 outside.
-Image fittedPicture(const Image& picture, int width, int height);
+    // Follows what the session asks for; `pictures` are drawn. Null photographs: none are at hand.
+    void update(const Session& session, const Photographs* photographs, ViewPictures& pictures);
+    const Texture* picture() const { return picture_ ? &*picture_ : nullptr; } // null: the render stays
+    const std::string& figures() const { return figures_; }
 
-// What stands in place of the render: the photograph exposed as the render is, or the difference of both's codes,
-// brighter than middle grey where the photograph is.
-Image comparisonPicture(Comparison comparison, const Image& photograph, const Image& render, const Display& display);
-
-// PSNR of radiance over the pixels that have a material, and the mean of photograph over render there.
-std::string describeComparison(const Image& photograph, const Frame& render, const Surface& surface, double peak);
+private:
+    const Context& context_;
+    std::optional<Texture> picture_;
+    std::optional<std::pair<size_t, size_t>> compared_; // its photograph, and the render's number
+    Comparison by_ = Comparison::none;
+    std::string figures_;
+};
 
 } // namespace nacre

@@ -30,7 +30,7 @@ void chooseResidualShown(Session& session)
 
 } // namespace
 
-void showDisplayPanel(Session& session, const PanelInputs&)
+void showDisplayPanel(Session& session)
 {
     if (!ImGui::CollapsingHeader("Display", ImGuiTreeNodeFlags_DefaultOpen)) {
         return;

@@ -3,9 +3,9 @@
 #include <string>
 #include <vector>
 
-#include "engine/viewer/controls.h"
-#include "engine/viewer/photographs.h"
+#include "engine/viewer/background_loads.h"
 #include "engine/viewer/placed_picture.h"
+#include "engine/viewer/session_input.h"
 #include "engine/viewer/view_pictures.h"
 
 namespace nacre {
@@ -23,11 +23,19 @@ struct PanelInputs {
     float scale = 1;                          // pixels a unit of layout
 };
 
+// All of them: left and right of the picture, `width` the right ones'.
+void showPanels(Session& session, const PanelInputs& inputs, const Stage& stage, float width,
+                std::vector<PlacedPicture>& placed);
+// Below the picture; `busy` is what is being read, or null. True where the user cancels it.
+bool showStatus(const Session& session, const Loader* busy, const Stage& stage);
+// Between the two pictures that a wipe shows.
+void showWipeLine(const Session& session, const Stage& stage);
+
 // Each describes its part of the panels left and right of the picture with ImGui, and changes the session where it is
 // used.
 void showLightPanel(Session& session, const PanelInputs& inputs, std::vector<PlacedPicture>& placed);
 void showMaterialPanel(Session& session, const PanelInputs& inputs, std::vector<PlacedPicture>& placed);
-void showDisplayPanel(Session& session, const PanelInputs& inputs);
+void showDisplayPanel(Session& session);
 void showPhotographPanel(Session& session, const PanelInputs& inputs);
 void showInspectorPanel(const Session& session, const PanelInputs& inputs);
 

@@ -1,0 +1,407 @@
+#include "engine/viewer/viewer.h"
+
+#include <algorithm>
+#include <cmath>
+#include <thread>
+
+#include <fmt/format.h>
+#include <glm/common.hpp>
+#include <imgui.h>
+
+#include "engine/files/error.h"
+#include "engine/files/whole_file.h"
+#include "engine/scene/scene_file.h"
+#include "engine/scene/scene_residual.h"
+#include "engine/viewer/background_loads.h"
+#include "engine/viewer/comparison.h"
+#include "engine/viewer/panels.h"
+#include "engine/viewer/picture_texture.h"
+#include "engine/viewer/session_input.h"
+#include "engine/viewer/thumbnails.h"
+#include "engine/viewer/ui_pass.h"
+
+namespace nacre {
+
+namespace {
+
+constexpr double kMostFramesPerSecond = 60; // FIFO does not hold every driver back
+constexpr float kPanelWidth = 300;          // units of layout
+constexpr float kInspectorWidth = 250;
+constexpr float kStatusHeight = 26;
+constexpr float kBallSize = 200;
+constexpr float kThumbnailSize = 48;
+constexpr double kProgressSeconds = 0.1; // between looks at what is loading
+constexpr glm::vec3 kBackground{0.11f, 0.11f, 0.12f};
+constexpr int kFramesToSettle = 3; // ImGui takes a few
+constexpr size_t kFewLights = 16;  // of which the light ball's few pixels are drawn sooner than another ball is made
+constexpr const char* kStateAttribute = "nacre:state"; // of a screenshot: its state file's text
+
+double secondsSince(std::chrono::steady_clock::time_point start)
+{
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+std::filesystem::path stateFileOf(std::filesystem::path picture)
+{
+    return picture.replace_extension(".json");
+}
+
+// With the state in its metadata, and beside it as NAME.json.
+void saveScreenshot(const std::filesystem::path& file, const Image& picture, const ViewState& state)
+{
+    const std::string text = textOf(sceneFileOf(state), file.parent_path());
+    saveImage(file, picture, PixelType::uint8, {{kStateAttribute, text}});
+    writeTextFile(stateFileOf(file), text);
+}
+
+// The first of nacre-0001.png, nacre-0002.png, ... of which neither picture nor state is in the folder.
+std::filesystem::path nextScreenshot(const std::filesystem::path& folder)
+{
+    for (int number = 1;; ++number) {
+        const std::filesystem::path file = folder / fmt::format("nacre-{:04}.png", number);
+        if (!std::filesystem::exists(file) && !std::filesystem::exists(stateFileOf(file))) {
+            return file;
+        }
+    }
+}
+
+// Frames: what has happened since the last, what was read, and then pictures and panels, as often as anything changes.
+class ViewerWindow {
+public:
+    // The state's captured lights are resolved, and what it shows can be shown.
+    ViewerWindow(const Context& context, ViewState state, Choices choices, const SceneSource& source,
+                 const ViewerOptions& options);
+    // Until it is closed.
+    void run();
+
+private:
+    using Clock = std::chrono::steady_clock;
+
+    double waitingTime() const;
+    void keepPace();
+    void takeEvents(const WindowEvents& events);
+    void takeWhatWasRead();
+    void takeScene(const ViewState& state, const LoadedScene& scene);
+    void keepShown();
+    void takeScreenshot();
+    void applyState();
+    void drawFrame();
+    void drawPictures();
+    void placePicture(const Stage& stage);
+    void describePanels(const Stage& stage);
+    void showTitle(double seconds);
+    float panelWidth() const; // on the right
+    Stage stage() const;
+
+    const Context& context_;
+    const SceneSource& source_;
+    ViewerOptions options_;
+    Window window_;
+    Swapchain swapchain_;
+    UiPass ui_;
+    ViewPictures pictures_;
+    Renderer ball_;
+    PhotographComparison comparison_;
+    std::map<std::string, Texture> thumbnails_;
+    std::vector<PlacedPicture> placed_;
+
+    SessionInput input_;
+    Session& session_;
+    glm::vec3 view_{0, 0, 1};
+
+    int framesLeft_ = kFramesToSettle;
+    Clock::time_point lastFrame_ = Clock::now();
+    double frameSeconds_ = 0; // of one, smoothed
+    size_t shownFrames_ = 0;
+
+    BackgroundLoads loads_;
+};
+
+ViewerWindow::ViewerWindow(const Context& context, ViewState state, Choices choices, const SceneSource& source,
+                           const ViewerOptions& options)
+    : context_(context), source_(source), options_(options), window_("nacre", options.width, options.height),
+      swapchain_(context, window_), ui_(context, window_, swapchain_), pictures_(context), ball_(context),
+      comparison_(context), input_(std::move(state), std::move(choices)), session_(input_.session),
+      loads_(source, session_.state, Window::wake)
+{
+    view_ = source_.view(sceneFileOf(session_.state));
+    takeScene(session_.state, loadScene(source_, session_.state, input_.choices, {}, {}));
+    requireResidual(pictures_.scene().main->surface, view_, session_.state.residual);
+    applyState();
+    session_.opened = session_.state;
+}
+
+void ViewerWindow::run()
+{
+    while (!session_.wantsToQuit && !window_.shouldClose()) {
+        keepPace();
+        takeEvents(window_.waitForEvents(waitingTime()));
+        takeWhatWasRead();
+        loads_.follow(session_.state, input_.choices, pictures_.scene());
+        if (session_.wantsScreenshot) {
+            takeScreenshot();
+        }
+        const glm::ivec2 size = window_.framebufferSize();
+        if (!swapchain_.isEmpty() && size.x > 0 && size.y > 0 && framesLeft_ > 0) {
+            drawFrame();
+        }
+    }
+    fmt::print("showed       {} pictures\n", shownFrames_);
+}
+
+// 0 while something moves; negative where nothing does until something happens.
+double ViewerWindow::waitingTime() const
+{
+    if (swapchain_.isEmpty()) {
+        return -1;
+    }
+    if (framesLeft_ > 0) {
+        return 0;
+    }
+    return loads_.busy() != nullptr ? kProgressSeconds : -1;
+}
+
+void ViewerWindow::keepPace()
+{
+    const double left = 1 / kMostFramesPerSecond - secondsSince(lastFrame_);
+    if (framesLeft_ > 0 && left > 0) {
+        std::this_thread::sleep_for(std::chrono::duration<double>(left));
+    }
+}
+
+void ViewerWindow::takeEvents(const WindowEvents& events)
+{
+    if (!events.any) {
+        framesLeft_ = std::max(framesLeft_, loads_.busy() != nullptr ? 1 : 0);
+        return;
+    }
+    framesLeft_ = kFramesToSettle;
+    if (events.resized) {
+        swapchain_.rebuild();
+    }
+    if (swapchain_.isEmpty()) {
+        return;
+    }
+    if (const std::optional<std::filesystem::path> surface = input_.take(events, window_, stage())) {
+        loads_.open(*surface);
+    }
+}
+
+void ViewerWindow::takeWhatWasRead()
+{
+    const BackgroundLoads::Done done = loads_.finish(input_.choices);
+    if (done.scene && done.scene->choices) {
+        input_.choices = *done.scene->choices;
+        thumbnails_.clear();
+        pictures_.setPhotographs(nullptr);
+        takeScene(done.scene->state, done.scene->scene);
+        session_ = {.state = done.scene->state,
+                    .hasResidual = session_.hasResidual,
+                    .wantsScreenshot = session_.wantsScreenshot};
+        applyState();
+        session_.opened = session_.state;
+    } else if (done.scene) {
+        takeScene(done.scene->state, done.scene->scene);
+    } else if (done.photographs) {
+        pictures_.setPhotographs(loads_.photographs());
+        session_.hasPhotographs = loads_.shown().onto.empty() && !loads_.shown().surface.empty();
+    } else if (!done.problem.empty()) {
+        session_.message = done.problem;
+        keepShown();
+    }
+    if (done.material) {
+        const auto& [specification, material] = *done.material;
+        const auto size = static_cast<int>(kThumbnailSize * ui_.scale());
+        thumbnails_.insert_or_assign(specification,
+                                     uploadPicture(context_, materialThumbnail(context_, *material, size)));
+    }
+    if (done.scene || done.photographs || done.material) {
+        framesLeft_ = kFramesToSettle;
+    }
+}
+
+void ViewerWindow::takeScene(const ViewState& state, const LoadedScene& scene)
+{
+    const bool isOtherMaterial = scene.main != pictures_.scene().main;
+    pictures_.setScene(scene);
+    if (isOtherMaterial && !scene.main->surface.materials.empty()) {
+        ball_.setSurface(ballSurface(scene.main->surface, static_cast<int>(kBallSize * ui_.scale())));
+        input_.pixel.reset();
+    }
+    input_.settle();
+    session_.hasPhotographs = loads_.photographs() != nullptr && state.onto.empty() && !state.surface.empty();
+    session_.hasResidual = hasResidualFrom(scene.main->surface, view_);
+}
+
+// Where what was asked for cannot or shall not be read.
+void ViewerWindow::keepShown()
+{
+    input_.goBackTo(loads_.shown());
+    loads_.keep(session_.state);
+    framesLeft_ = kFramesToSettle;
+}
+
+// Of what the state shows, in its own size; once it is loaded.
+void ViewerWindow::takeScreenshot()
+{
+    if (loads_.readsScene() || (session_.state.show == Show::verdicts && loads_.readsPhotographs())) {
+        return;
+    }
+    session_.wantsScreenshot = false;
+    try {
+        applyState();
+        const std::filesystem::path file = nextScreenshot(options_.screenshots);
+        saveScreenshot(file, pictures_.picture(), session_.state);
+        session_.message = fmt::format("wrote {} and its state", file.string());
+    } catch (const Error& e) {
+        session_.message = e.what();
+    }
+    framesLeft_ = kFramesToSettle;
+}
+
+float ViewerWindow::panelWidth() const
+{
+    return std::min(kPanelWidth * ui_.scale(), 0.4f * static_cast<float>(swapchain_.extent().width));
+}
+
+Stage ViewerWindow::stage() const
+{
+    const glm::vec2 window(swapchain_.extent().width, swapchain_.extent().height);
+    const float inspector = std::min(kInspectorWidth * ui_.scale(), 0.3f * window.x);
+    const glm::vec2 taken(panelWidth() + inspector, kStatusHeight * ui_.scale());
+    return {.window = window,
+            .scale = ui_.scale(),
+            .area = {{inspector, 0}, glm::max(window - taken, glm::vec2(1))},
+            .picture = pictures_.size(),
+            .wipeColumn = pictures_.other() != nullptr ? std::optional(pictures_.wipeColumn()) : std::nullopt};
+}
+
+void ViewerWindow::applyState()
+{
+    settleShow(session_);
+    pictures_.apply(session_.state, view_, input_.choices.captured);
+    const bool isFew = pictures_.lights().size() <= kFewLights;
+    ball_.setPath(isFew ? RenderPath::direct : RenderPath::automatic);
+    ball_.setLights(pictures_.lights());
+    ball_.setDisplay(pictures_.display());
+}
+
+void ViewerWindow::drawPictures()
+{
+    applyState();
+    pictures_.draw();
+    if (!pictures_.scene().main->surface.materials.empty()) {
+        ball_.drawPicture();
+        comparison_.update(session_, loads_.photographs(), pictures_);
+    }
+}
+
+void ViewerWindow::placePicture(const Stage& stage)
+{
+    const Framing framing = resolved(session_.state.framing, stage.picture, stage.area);
+    const int width = stage.picture.x, column = stage.wipeColumn.value_or(width);
+    if (comparison_.picture() != nullptr) {
+        placed_.push_back({comparison_.picture(), 0, width, framing, stage.area});
+        return;
+    }
+    placed_.push_back({&pictures_.main(), 0, column, framing, stage.area});
+    if (stage.wipeColumn) {
+        placed_.push_back({pictures_.other(), column, width, framing, stage.area});
+    }
+}
+
+void ViewerWindow::describePanels(const Stage& stage)
+{
+    const DrawnSurface* drawn = pictures_.scene().main.get();
+    const PanelInputs inputs{.choices = input_.choices,
+                             .thumbnails = thumbnails_,
+                             .ball = drawn->surface.materials.empty() ? nullptr : &ball_.drawnPicture(),
+                             .drawn = drawn,
+                             .photographs = session_.state.onto.empty() ? loads_.photographs() : nullptr,
+                             .verdicts = pictures_.verdicts(),
+                             .pixel = input_.pixel,
+                             .comparisonFigures = comparison_.figures(),
+                             .scale = stage.scale};
+    showPanels(session_, inputs, stage, panelWidth(), placed_);
+    if (comparison_.picture() == nullptr) {
+        showWipeLine(session_, stage);
+    }
+    if (showStatus(session_, loads_.busy(), stage)) {
+        const bool wasScene = loads_.readsScene();
+        session_.message = fmt::format("cancelled {}", loads_.cancel());
+        if (wasScene) {
+            keepShown();
+        }
+    }
+    if (session_.help) {
+        showHelp(stage.window, stage.scale);
+    }
+}
+
+void ViewerWindow::drawFrame()
+{
+    lastFrame_ = Clock::now();
+    --framesLeft_;
+    drawPictures();
+    placed_.clear();
+    const Stage stage = this->stage();
+    placePicture(stage);
+    ui_.begin();
+    describePanels(stage);
+    ui_.end();
+    const bool wasShown = swapchain_.show([&](VkCommandBuffer commands, size_t image) {
+        recordPictures(commands, swapchain_.image(image), placed_, kBackground);
+        ui_.record(commands, swapchain_, image);
+    });
+    if (!wasShown) {
+        swapchain_.rebuild();
+        framesLeft_ = kFramesToSettle;
+    }
+    ++shownFrames_;
+    showTitle(secondsSince(lastFrame_));
+    if (session_.playing) {
+        play(session_, static_cast<float>(std::max(frameSeconds_, 1 / kMostFramesPerSecond)));
+        framesLeft_ = std::max(framesLeft_, 1);
+    }
+}
+
+void ViewerWindow::showTitle(double seconds)
+{
+    frameSeconds_ = frameSeconds_ > 0 ? 0.8 * frameSeconds_ + 0.2 * seconds : seconds;
+    const std::filesystem::path& surface = input_.choices.surface;
+    const std::string name = surface.empty() ? session_.state.material : surface.stem().string();
+    window_.setTitle(
+        fmt::format("{} - nacre - {} - {:.1f} ms a frame", name, context_.info().name, 1000 * frameSeconds_));
+}
+
+} // namespace
+
+void runViewer(const Context& context, ViewState state, Choices choices, const SceneSource& source,
+               const ViewerOptions& options)
+{
+    resolveCaptured(state, choices.captured);
+    requireShown(state, source);
+    ViewerWindow(context, std::move(state), std::move(choices), source, options).run();
+}
+
+void viewHeadless(const Context& context, ViewState state, const Choices& choices, const SceneSource& source,
+                  const std::filesystem::path& output)
+{
+    resolveCaptured(state, choices.captured);
+    requireShown(state, source);
+    ViewPictures pictures(context);
+    if (state.show == Show::verdicts) {
+        source.photographs->load([](float) {}, false);
+        pictures.setPhotographs(&*source.photographs);
+    }
+    pictures.setScene(loadScene(source, state, choices, {}, {}));
+    const glm::vec3 view = source.view(sceneFileOf(state));
+    requireResidual(pictures.scene().main->surface, view, state.residual);
+    pictures.apply(state, view, choices.captured);
+    saveScreenshot(output, pictures.picture(), state);
+    if (!pictures.verdicts().empty()) {
+        fmt::print("verdicts     {}\n", describeVerdicts(pictures.verdicts()));
+    }
+}
+
+} // namespace nacre
