@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <span>
+#include <utility>
 
 #include <assimp/Importer.hpp>
 #include <assimp/config.h>
