@@ -10,6 +10,7 @@
 
 #include "acquisition/capture/capture_layouts.h"
 #include "app/arguments/residual_arguments.h"
+#include "app/report/brdf_report.h"
 #include "app/report/ladder_report.h"
 #include "engine/files/error.h"
 #include "engine/files/measures.h"
@@ -41,13 +42,6 @@ Json jsonOf(const NormalEstimate& estimate)
         }
     }
     return list;
-}
-
-double measuredShare(const BrdfTable& table)
-{
-    const auto covered =
-        std::count_if(table.confidence.begin(), table.confidence.end(), [](float c) { return c >= 1; });
-    return static_cast<double>(covered) / static_cast<double>(table.confidence.size());
 }
 
 double meanOf(const std::vector<float>& values)
@@ -254,7 +248,7 @@ std::string describe(const BrdfTable& table)
                                    ? "natural coordinates"
                                    : fmt::format("thetaD to {:.1f} degrees", glm::degrees(table.domain.thetaDMax));
     return fmt::format("{}x{}x{} ({}), {}, {:.0f} % of it measured", table.size.x, table.size.y, table.size.z,
-                       describeBytes(16 * table.values.size()), domain, 100 * measuredShare(table));
+                       describeBytes(16 * table.values.size()), domain, 100 * coveredShare(table));
 }
 
 std::string describe(const Light& light)
@@ -320,7 +314,7 @@ Json summaryOf(const Capture& capture, const Acquisition& acquisition)
     json["tableSize"] = {table.size.x, table.size.y, table.size.z};
     json["tableCoordinates"] = table.domain.coordinates == kNatural ? "natural" : "half-difference";
     json["tableThetaDMaxDegrees"] = glm::degrees(table.domain.thetaDMax);
-    json["tableCoveredShare"] = measuredShare(table);
+    json["tableCoveredShare"] = coveredShare(table);
     for (size_t i = 0; i < acquisition.segmentation.regions.size(); ++i) {
         const MaterialRegion& region = acquisition.segmentation.regions[i];
         const BrdfTable& own = acquisition.surface.materials[i].table;
@@ -328,7 +322,7 @@ Json summaryOf(const Capture& capture, const Acquisition& acquisition)
                                      {"pixels", region.pixels},
                                      {"innerPixels", region.inner},
                                      {"tableSize", {own.size.x, own.size.y, own.size.z}},
-                                     {"tableCoveredShare", measuredShare(own)}});
+                                     {"tableCoveredShare", coveredShare(own)}});
     }
     json["residual"] = documentOf(acquisition.residual);
     json["labels"] = acquisition.segmentation.source;
