@@ -2,16 +2,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
+#include <string>
 
 #include <fmt/format.h>
 #include <glm/trigonometric.hpp>
 #include <nlohmann/json.hpp>
 
+#include "acquisition/brdf/model_ladder.h"
 #include "acquisition/capture/capture_layouts.h"
 #include "app/arguments/residual_arguments.h"
 #include "app/report/brdf_report.h"
-#include "app/report/ladder_report.h"
 #include "engine/files/error.h"
 #include "engine/files/measures.h"
 #include "engine/lights/light_files.h"
@@ -20,6 +22,31 @@ namespace nacre {
 using Json = nlohmann::json;
 
 namespace {
+
+// The steps that are better than every smaller one, with the one that is taken; the others are counted.
+// empty where none was asked for
+std::string describe(const ModelLadder& ladder)
+{
+    if (ladder.steps.empty()) {
+        return {};
+    }
+    std::string text = "model                                bytes   PSNR dB  ns a lookup\n";
+    double best = -std::numeric_limits<double>::infinity();
+    size_t others = 0;
+    for (size_t i = 0; i < ladder.steps.size(); ++i) {
+        const LadderStep& step = ladder.steps[i];
+        const bool taken = ladder.taken == i;
+        if (step.psnr <= best && !taken) {
+            ++others;
+            continue;
+        }
+        text += fmt::format("  {:<30} {:>9} {:>9.1f} {:>12.0f}{}\n", step.description, step.bytes, step.psnr,
+                            step.nanoseconds, taken ? "  <- taken" : "");
+        best = std::max(best, step.psnr);
+    }
+    return text + (others > 0 ? fmt::format("  {} others, no better than a smaller one\n", others) : "") +
+           (ladder.taken ? "" : "  none of them is good enough: the full table stays\n");
+}
 
 double polarDegrees(const glm::vec3& d)
 {
