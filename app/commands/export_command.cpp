@@ -1,13 +1,18 @@
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <memory>
+#include <optional>
+#include <string>
+#include <vector>
 
+#include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
-#include "app/arguments/export_arguments.h"
+#include "app/arguments/destinations.h"
 #include "app/commands/commands.h"
-#include "app/materials/export_albedo.h"
 #include "app/materials/export_rti.h"
 #include "engine/files/error.h"
 #include "engine/files/whole_file.h"
@@ -15,11 +20,172 @@
 #include "engine/loading/size_argument.h"
 #include "engine/rti/ptm_file.h"
 #include "engine/rti/rti_web.h"
+#include "engine/surface/surface.h"
+#include "shared/glsl.h"
 
 namespace nacre {
 namespace fs = std::filesystem;
 
 namespace {
+
+struct ExportArguments {
+    std::filesystem::path surface;
+    std::filesystem::path ptm;
+    std::filesystem::path web;
+    std::filesystem::path normals;
+    std::filesystem::path albedo;
+    std::string ptmFormat = "lrgb";
+    std::string basis = "hsh";
+    std::string size;
+    std::optional<float> exposure;
+    int lights = 64;
+    int threads = 0;
+    bool shadows = false;
+    bool quiet = false;
+    bool force = false;
+
+    void addTo(CLI::App& command);
+    // Throws usage Errors, and data Errors for outputs that cannot be written.
+    void check() const;
+};
+
+constexpr int kFewestLights = 18; // twice the terms of the larger basis
+constexpr int kMostLights = 4096;
+
+Error usageError(const std::string& wrong, const std::string& expected)
+{
+    return Error("", wrong, expected, Error::kUsage);
+}
+
+void requireExtension(const char* option, const fs::path& file, const std::vector<std::string>& extensions)
+{
+    if (!file.empty() && std::find(extensions.begin(), extensions.end(), file.extension()) == extensions.end()) {
+        throw usageError(fmt::format("{} {} is no such file", option, file.string()),
+                         fmt::format("NAME{}", fmt::join(extensions, " or NAME")));
+    }
+}
+
+void requireChoices(const ExportArguments& arguments)
+{
+    requireExtension("--ptm", arguments.ptm, {".ptm"});
+    requireExtension("--write-normals", arguments.normals, {".png", ".exr"});
+    requireExtension("--albedo", arguments.albedo, {".png", ".exr"});
+    if (arguments.ptmFormat != "lrgb" && arguments.ptmFormat != "rgb") {
+        throw usageError(fmt::format("--ptm-format {} is not known", arguments.ptmFormat), "lrgb or rgb");
+    }
+    if (arguments.basis != "hsh" && arguments.basis != "ptm") {
+        throw usageError(fmt::format("--basis {} is not known", arguments.basis), "hsh or ptm");
+    }
+    if (arguments.lights < kFewestLights || arguments.lights > kMostLights) {
+        throw usageError(fmt::format("--lights {} is out of range", arguments.lights),
+                         fmt::format("{} to {}", kFewestLights, kMostLights));
+    }
+    if (arguments.exposure && !std::isfinite(*arguments.exposure)) {
+        throw usageError("--exposure is not finite", "a number of stops");
+    }
+    if (!arguments.size.empty()) {
+        sizeFromArgument("--size", arguments.size);
+    }
+    if (arguments.threads < 0) {
+        throw usageError(fmt::format("--threads {} is not possible", arguments.threads), "1 or more, or 0 for all");
+    }
+}
+
+void requireOutputs(const ExportArguments& arguments)
+{
+    std::vector<fs::path> outputs = {arguments.ptm, arguments.web, arguments.normals, arguments.albedo};
+    std::erase_if(outputs, [](const fs::path& output) { return output.empty(); });
+    if (outputs.empty()) {
+        throw usageError("nothing is asked for", "--ptm, --rti-web, --write-normals or --albedo");
+    }
+    for (size_t i = 0; i < outputs.size(); ++i) {
+        if (std::find(outputs.begin(), outputs.begin() + static_cast<std::ptrdiff_t>(i), outputs[i]) !=
+            outputs.begin() + static_cast<std::ptrdiff_t>(i)) {
+            throw usageError(fmt::format("{} is asked for twice", outputs[i].string()), "a name for each output");
+        }
+        if (outputs[i] != arguments.web && fs::is_directory(outputs[i])) {
+            throw Error(outputs[i], "is a folder", "the name of a file");
+        }
+        requireDestination(outputs[i], arguments.force);
+    }
+    // A name that is mistyped should not take away a folder of something else.
+    if (arguments.force && fs::is_directory(arguments.web) && !fs::is_empty(arguments.web) &&
+        !fs::exists(arguments.web / "info.json")) {
+        throw Error(arguments.web, "is a folder of something else", "a new name, or one that --rti-web wrote");
+    }
+}
+
+void ExportArguments::addTo(CLI::App& command)
+{
+    command.add_option("SURFACE", surface, "Folder NAME.nacre of nacre acquire")->required();
+    command.add_option("--ptm", ptm, "Polynomial texture map to write, FILE.ptm")->option_text("FILE");
+    command
+        .add_option("--ptm-format", ptmFormat, "Format of the PTM: lrgb (one biquadratic and a colour a pixel) or rgb")
+        ->capture_default_str();
+    command.add_option("--rti-web", web, "Folder for info.json and plane_N.jpg, for OpenLIME and relight")
+        ->option_text("DIR");
+    command.add_option("--basis", basis, "Functions of --rti-web: hsh (nine) or ptm (six)")->capture_default_str();
+    command.add_option("--write-normals", normals, "Normals to write, .png (16 bits, (n + 1) / 2) or .exr")
+        ->option_text("FILE");
+    command.add_option("--albedo", albedo, "Colour without shading and gloss to write, .png (16 bits) or .exr")
+        ->option_text("FILE");
+    command.add_option("--lights", lights, "Number of virtual lights for the fits of --ptm and --rti-web")
+        ->capture_default_str();
+    command.add_option("--exposure", exposure,
+                       "Exposure of --ptm and --rti-web in stops (default: 99th percentile over all lights at 0.9)");
+    command.add_flag("--shadows", shadows, "Cast shadows, from the surface's height");
+    command.add_option("--size", size, "Size in pixels that the surface is fitted into, WxH (default: its own)");
+    command.add_option("--threads", threads, "Number of threads (default: all)");
+    command.add_flag("--quiet", quiet, "No summary");
+    command.add_flag("--force", force, "Replacement of existing outputs");
+}
+
+void ExportArguments::check() const
+{
+    requireChoices(*this);
+    requireOutputs(*this);
+}
+
+// A surface's colour per pixel without its highlights and its shading: the reflectance factor pi a f of the albedo
+// factor a and the material's f at CIE's 45:0 geometry, lit at 45 degrees and seen along the normal. It is what the
+// diffuse reflectance is where there is no gloss; up to the capture's factor where the scale is relative.
+Image exportedAlbedo(const Surface& surface)
+{
+    const glm::vec3 normal(0, 0, 1), light = glm::normalize(glm::vec3(1, 0, 1));
+    std::vector<glm::vec3> reflectances;
+    for (const Material& material : surface.materials) {
+        reflectances.push_back(kPi * evaluateTable(material.table, normal, light, normal).value);
+    }
+    Image albedo(surface.normals.width, surface.normals.height, 3);
+    for (size_t i = 0; i < surface.labels.size(); ++i) {
+        if (surface.labels[i] >= reflectances.size() || surface.normals.confidence[i] <= 0) {
+            continue;
+        }
+        for (int c = 0; c < 3; ++c) {
+            const float factor = surface.albedo.values.empty() ? 1 : surface.albedo.values[3 * i + c];
+            albedo.values[3 * i + c] = factor * reflectances[surface.labels[i]][c];
+        }
+    }
+    return albedo;
+}
+
+// EXR: floats. PNG: 16 bits, linear, divided by a power of two that brings the largest value to at most 1 and is
+// written as the text nacre:albedoScale. Answers that power of two, 1 for EXR.
+float saveAlbedo(const std::filesystem::path& file, const Image& albedo)
+{
+    if (file.extension() == ".exr") {
+        saveImage(file, albedo, PixelType::float32);
+        return 1;
+    }
+    const float largest = *std::max_element(albedo.values.begin(), albedo.values.end());
+    const float scale = largest > 1 ? std::exp2(std::ceil(std::log2(largest))) : 1;
+    Image coded = albedo;
+    for (float& value : coded.values) {
+        value /= scale;
+    }
+    saveImage(file, coded, PixelType::uint16, {{"nacre:albedoScale", fmt::format("{}", scale)}});
+    return scale;
+}
 
 Surface surfaceToExport(const ExportArguments& arguments)
 {

@@ -9,7 +9,6 @@
 #include "app/report/acquisition_summary.h"
 #include "app/report/debug_pictures.h"
 #include "app/report/progress_line.h"
-#include "app/report/verdict_pictures.h"
 #include "engine/files/error.h"
 #include "engine/files/whole_file.h"
 #include "evaluation/held_out/held_out_measures.h"

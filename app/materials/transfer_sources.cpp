@@ -1,12 +1,18 @@
 #include "app/materials/transfer_sources.h"
 
 #include <algorithm>
+#include <array>
+#include <cctype>
+#include <charconv>
+#include <filesystem>
+#include <map>
+#include <sstream>
+#include <string>
+#include <vector>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "app/arguments/list_argument.h"
-#include "app/arguments/short_name.h"
 #include "app/materials/target_source.h"
 #include "engine/files/error.h"
 #include "engine/files/stopwatch.h"
@@ -17,6 +23,132 @@
 namespace nacre {
 
 namespace {
+
+// Without the folders, what every name of its kind starts with, and the extension of a file.
+std::string essentialPart(const std::string& specification)
+{
+    constexpr std::array kPrefixes{"merl-abc:", "merl-sgd:", "make:"};
+    for (const std::string_view prefix : kPrefixes) {
+        if (specification.starts_with(prefix)) {
+            return specification.substr(prefix.size());
+        }
+    }
+    const size_t mark = specification.rfind('#');
+    std::filesystem::path path = specification.substr(0, mark);
+    if (!path.has_filename()) {
+        path = path.parent_path(); // a slash at the end
+    }
+    // Points of numbers are no extensions.
+    const bool isFormula = specification.find(':') != std::string::npos && !std::filesystem::exists(path);
+    const std::string stem = isFormula ? path.string() : path.stem().string();
+    return mark == std::string::npos ? stem : stem + "-" + specification.substr(mark + 1);
+}
+
+// What captions and file names call a material, target or rig: the file's stem, the fit's or the material's name; only
+// letters, digits, ".", "-" and "_".
+std::string shortName(const std::string& specification)
+{
+    std::string name = essentialPart(specification);
+    for (char& c : name) {
+        if (!std::isalnum(static_cast<unsigned char>(c)) && c != '.' && c != '-' && c != '_') {
+            c = '-';
+        }
+    }
+    return name.empty() ? "unnamed" : name;
+}
+
+// The same of several, told apart by -2, -3, ... where they are alike.
+std::vector<std::string> shortNames(const std::vector<std::string>& specifications)
+{
+    std::map<std::string, int> taken;
+    std::vector<std::string> names;
+    for (const std::string& specification : specifications) {
+        std::string name = shortName(specification);
+        const int count = ++taken[name];
+        if (count > 1) {
+            name += fmt::format("-{}", count);
+            ++taken[name];
+        }
+        names.push_back(name);
+    }
+    return names;
+}
+
+// "0=A,1=B": an index and what belongs to it.
+struct IndexedValue {
+    size_t index = 0;
+    std::string value;
+};
+
+bool isDigit(char c)
+{
+    return std::isdigit(static_cast<unsigned char>(c)) != 0;
+}
+
+bool isFormula(const std::string& text)
+{
+    return text.find("lambert:") != std::string::npos || text.find("ggx:") != std::string::npos;
+}
+
+// Whether `piece` belongs to the value before it, from which a comma parts it.
+bool goesOn(const std::string& value, const std::string& piece)
+{
+    if (std::filesystem::exists(piece)) {
+        return false;
+    }
+    const bool startsAsNumber = !piece.empty() && (isDigit(piece[0]) || piece[0] == '.');
+    return (isFormula(value) && startsAsNumber) ||
+           (value.starts_with("make:") && piece.find('=') != std::string::npos && !startsAsNumber);
+}
+
+bool isIndexed(const std::string& piece)
+{
+    const size_t equals = piece.find('=');
+    return equals != std::string::npos && equals > 0 && std::all_of(piece.begin(), piece.begin() + equals, isDigit);
+}
+
+template <typename GoesOn> std::vector<std::string> split(const std::vector<std::string>& texts, const GoesOn& goesOn)
+{
+    std::vector<std::string> values;
+    for (const std::string& text : texts) {
+        std::istringstream stream(text);
+        bool isFirst = true;
+        for (std::string piece; std::getline(stream, piece, ','); isFirst = false) {
+            if (!isFirst && goesOn(values.back(), piece)) {
+                values.back() += "," + piece;
+            } else {
+                values.push_back(piece);
+            }
+        }
+    }
+    return values;
+}
+
+// The values of an option that takes several, each of which may be a list with commas. Values have commas of their own:
+// numbers go on with the formula before them (lambert:0.5,0.2,0.1), key=number with the target (make:cloth,threads=32).
+std::vector<std::string> listFromArguments(const std::vector<std::string>& texts)
+{
+    return split(texts, goesOn);
+}
+
+// Throws Error (usage) that names the option.
+std::vector<IndexedValue> indexedListFromArguments(const std::string& option, const std::vector<std::string>& texts)
+{
+    const auto notIndexed = [](const std::string&, const std::string& piece) { return !isIndexed(piece); };
+    std::vector<IndexedValue> values;
+    for (const std::string& text : split(texts, notIndexed)) {
+        const size_t equals = text.find('=');
+        IndexedValue value;
+        if (!isIndexed(text) || equals + 1 == text.size() ||
+            std::from_chars(text.data(), text.data() + equals, value.index).ec != std::errc()) {
+            throw Error("", fmt::format("{} {} is not understood", option, text), "0=MATERIAL,1=MATERIAL and so on",
+                        Error::kUsage);
+        }
+        value.value = text.substr(equals + 1);
+        values.push_back(std::move(value));
+    }
+    return values;
+}
 
 constexpr const char* kLabelled = "labels"; // the row of --labels
 

@@ -2,15 +2,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
+#include <string>
 
 #include <fmt/format.h>
 #include <glm/trigonometric.hpp>
 #include <nlohmann/json.hpp>
 
+#include "acquisition/brdf/model_ladder.h"
 #include "acquisition/capture/capture_layouts.h"
 #include "app/arguments/residual_arguments.h"
-#include "app/report/ladder_report.h"
+#include "app/report/brdf_report.h"
 #include "engine/files/error.h"
 #include "engine/files/measures.h"
 #include "engine/lights/light_files.h"
@@ -19,6 +22,31 @@ namespace nacre {
 using Json = nlohmann::json;
 
 namespace {
+
+// The steps that are better than every smaller one, with the one that is taken; the others are counted.
+// empty where none was asked for
+std::string describe(const ModelLadder& ladder)
+{
+    if (ladder.steps.empty()) {
+        return {};
+    }
+    std::string text = "model                                bytes   PSNR dB  ns a lookup\n";
+    double best = -std::numeric_limits<double>::infinity();
+    size_t others = 0;
+    for (size_t i = 0; i < ladder.steps.size(); ++i) {
+        const LadderStep& step = ladder.steps[i];
+        const bool taken = ladder.taken == i;
+        if (step.psnr <= best && !taken) {
+            ++others;
+            continue;
+        }
+        text += fmt::format("  {:<30} {:>9} {:>9.1f} {:>12.0f}{}\n", step.description, step.bytes, step.psnr,
+                            step.nanoseconds, taken ? "  <- taken" : "");
+        best = std::max(best, step.psnr);
+    }
+    return text + (others > 0 ? fmt::format("  {} others, no better than a smaller one\n", others) : "") +
+           (ladder.taken ? "" : "  none of them is good enough: the full table stays\n");
+}
 
 double polarDegrees(const glm::vec3& d)
 {
@@ -41,13 +69,6 @@ Json jsonOf(const NormalEstimate& estimate)
         }
     }
     return list;
-}
-
-double measuredShare(const BrdfTable& table)
-{
-    const auto covered =
-        std::count_if(table.confidence.begin(), table.confidence.end(), [](float c) { return c >= 1; });
-    return static_cast<double>(covered) / static_cast<double>(table.confidence.size());
 }
 
 double meanOf(const std::vector<float>& values)
@@ -254,7 +275,7 @@ std::string describe(const BrdfTable& table)
                                    ? "natural coordinates"
                                    : fmt::format("thetaD to {:.1f} degrees", glm::degrees(table.domain.thetaDMax));
     return fmt::format("{}x{}x{} ({}), {}, {:.0f} % of it measured", table.size.x, table.size.y, table.size.z,
-                       describeBytes(16 * table.values.size()), domain, 100 * measuredShare(table));
+                       describeBytes(16 * table.values.size()), domain, 100 * coveredShare(table));
 }
 
 std::string describe(const Light& light)
@@ -320,7 +341,7 @@ Json summaryOf(const Capture& capture, const Acquisition& acquisition)
     json["tableSize"] = {table.size.x, table.size.y, table.size.z};
     json["tableCoordinates"] = table.domain.coordinates == kNatural ? "natural" : "half-difference";
     json["tableThetaDMaxDegrees"] = glm::degrees(table.domain.thetaDMax);
-    json["tableCoveredShare"] = measuredShare(table);
+    json["tableCoveredShare"] = coveredShare(table);
     for (size_t i = 0; i < acquisition.segmentation.regions.size(); ++i) {
         const MaterialRegion& region = acquisition.segmentation.regions[i];
         const BrdfTable& own = acquisition.surface.materials[i].table;
@@ -328,7 +349,7 @@ Json summaryOf(const Capture& capture, const Acquisition& acquisition)
                                      {"pixels", region.pixels},
                                      {"innerPixels", region.inner},
                                      {"tableSize", {own.size.x, own.size.y, own.size.z}},
-                                     {"tableCoveredShare", measuredShare(own)}});
+                                     {"tableCoveredShare", coveredShare(own)}});
     }
     json["residual"] = documentOf(acquisition.residual);
     json["labels"] = acquisition.segmentation.source;

@@ -1,8 +1,12 @@
 #pragma once
+#include <filesystem>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include <nlohmann/json_fwd.hpp>
 
+#include "acquisition/brdf/cornell_samples.h"
 #include "engine/brdf/brdf_audit.h"
 #include "engine/brdf/brdf_comparison.h"
 #include "engine/materials/material_specification.h"
@@ -23,5 +27,26 @@ double coveredShare(const BrdfTable& table);
 void print(const BrdfReport& report);
 nlohmann::json jsonOf(const BrdfReport& report);
 nlohmann::json jsonOf(const BrdfComparison& comparison);
+
+// How well four fifths of a list of measurements predict the last fifth, by one way of interpolating.
+struct ScatteredPrediction {
+    std::string method;
+    BrdfComparison all;
+    BrdfComparison steep; // light and view at most kSteepDegrees from the normal: no grazing peak sets the scale
+};
+
+inline constexpr float kSteepDegrees = 62; // of the instrument's steps of 10 degrees, 60 is the last below
+
+struct ScatteredReport {
+    std::filesystem::path file;
+    CornellMeasurements measurements;
+    size_t given = 0; // that were interpolated
+    std::vector<ScatteredPrediction> predictions;
+};
+
+ScatteredReport examineScattered(const std::filesystem::path& file, int threads);
+
+void print(const ScatteredReport& report);
+nlohmann::json jsonOf(const ScatteredReport& report);
 
 } // namespace nacre
