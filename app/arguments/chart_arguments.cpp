@@ -6,7 +6,7 @@
 #include <fmt/ranges.h>
 
 #include "engine/files/error.h"
-#include "engine/loading/size_argument.h"
+#include "engine/scene/picture_size.h"
 
 namespace nacre {
 

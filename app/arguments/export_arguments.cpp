@@ -8,7 +8,7 @@
 
 #include "app/arguments/destinations.h"
 #include "engine/files/error.h"
-#include "engine/loading/size_argument.h"
+#include "engine/scene/picture_size.h"
 
 namespace nacre {
 namespace fs = std::filesystem;

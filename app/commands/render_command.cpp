@@ -2,15 +2,23 @@
 
 #include <fmt/format.h>
 
+#include "app/arguments/scene_options.h"
 #include "app/commands/commands.h"
 #include "app/materials/render_output.h"
-#include "engine/loading/render_scene.h"
+#include "engine/loading/scene_loading.h"
 #include "engine/scene/scene_names.h"
 #include "engine/scene/scene_residual.h"
 
 namespace nacre {
 
 namespace {
+
+struct RenderArguments {
+    SceneOptions scene;
+    std::filesystem::path output;
+    bool force = false;
+    bool quiet = false;
+};
 
 // Software devices are called as their driver is: not twice.
 std::string describe(const DeviceInfo& device)
@@ -39,8 +47,7 @@ std::string describeDrawing(Renderer& renderer, const RenderOutput& output)
                                 : "none: false colours need no lookup";
 }
 
-void report(const Scene& scene, Renderer& renderer, const RenderArguments& arguments, const RenderOutput& output,
-            const RenderedOutput& rendered)
+void report(const Scene& scene, Renderer& renderer, const RenderOutput& output, const RenderedOutput& rendered)
 {
     noteUnmeasured(scene);
     const NormalMap& normals = scene.surface.normals;
@@ -57,25 +64,25 @@ void report(const Scene& scene, Renderer& renderer, const RenderArguments& argum
         fmt::print("residual     {} components, {}\n", scene.surface.residual.components, nameOf(output.residual));
     }
     if (output.isExposed()) {
-        fmt::print("exposure     {:+.2f} stops{}\n", rendered.stops, arguments.exposure ? "" : " (automatic)");
+        fmt::print("exposure     {:+.2f} stops{}\n", rendered.stops, output.exposure ? "" : " (automatic)");
     }
     fmt::print("wrote        {}{}\n", rendered.first.string(),
                output.frames > 1 && !output.isAnimation ? " and so on" : "");
 }
 
-void runRender(RenderArguments arguments)
+void runRender(const RenderArguments& arguments)
 {
-    completeFromState(arguments);
-    const RenderOutput output = checkedOutput(arguments);
-    checkSceneArguments(arguments);
-    const Context context(arguments.device);
-    const Scene scene = sceneFromArguments(arguments, context);
+    const SceneDescription description = arguments.scene.description();
+    const RenderOutput output = checkedOutput(description, arguments.output, arguments.force);
+    requireConsistent(description);
+    const Context context(arguments.scene.device);
+    const Scene scene = loadScene(description, arguments.scene.fits, context, arguments.quiet);
     Renderer renderer(context);
     renderer.setSurface(scene.surface);
     renderer.setView(scene.view);
-    const RenderedOutput rendered = renderFrames(renderer, arguments, output, scene);
+    const RenderedOutput rendered = renderFrames(renderer, output, scene);
     if (!arguments.quiet) {
-        report(scene, renderer, arguments, output, rendered);
+        report(scene, renderer, output, rendered);
     }
 }
 
@@ -85,56 +92,45 @@ void addRenderCommand(CLI::App& app)
 {
     auto arguments = std::make_shared<RenderArguments>();
     CLI::App* command = app.add_subcommand("render", "A surface, or its material on other normals, under any lights");
-    command->add_option("SURFACE", arguments->surface, "Folder NAME.nacre that acquire wrote; or --material");
-    command->add_option("--material", arguments->material,
-                        "In place of SURFACE, with --onto: FILE.binary (MERL), FILE.bsdf (RGL), FILE.exr (our table), "
-                        "NAME.nacre[#MATERIAL], or a model as synth takes it");
-    command->add_option("--fits", arguments->fits,
-                        "Folder of merl_abc_params.csv and merl_sgd_params.csv "
-                        "[environment variable NACRE_FITS_DIR]");
-    command
-        ->add_option("--light", arguments->lights,
-                     "x,y,z[,r,g,b]: direction towards the light (x right, y up, z towards the camera), irradiance "
-                     "(default 1); or captured:N; soft:DEGREES: before it spreads it. Repeatable (default: captured:1)")
-        ->allow_extra_args(false);
-    command->add_option("--onto", arguments->onto,
-                        "Put the first material onto these camera-frame normals: .exr, .png (16-bit "
-                        "best; n = 2v - 1, black = no data) or another NAME.nacre; a tangent-space "
-                        "map makes a flat piece seen from the front");
-    command->add_option("--normal-y", arguments->normalY, "Green of --onto's picture: gl (up, default) or dx (down)");
-    command->add_option("--size", arguments->size, "WxH pixels to fit the surface into (default: its own size)");
-    command->add_option("--exposure", arguments->exposure,
-                        "Stops, not on EXR (default: the 99th percentile of radiance at 0.9)");
-    command->add_option("--environment", arguments->environment,
-                        "Light from all around: latitude-longitude picture, .exr or .hdr, +z in its middle");
-    command->add_option("--environment-lights", arguments->environmentLights,
-                        "At most so many directional lights stand for it (default: 256)");
-    command->add_option("--rig", arguments->rig,
-                        "Lights by name: key, three-point, raking, ring, environment; or those of a file, as nacre "
-                        "calibrate writes it (docs/formats.md)");
-    command->add_option("--environment-turn", arguments->environmentTurn, "Degrees about the vertical axis");
-    command->add_option("--view", arguments->view,
-                        "x,y,z towards another distant viewer of the same normals (default: 0,0,1)");
-    command->add_option("--path", arguments->path,
-                        "auto, direct (a table lookup per pixel and light) or ball (one lookup a pixel) [auto]");
-    command->add_option("--tone", arguments->tone, "Tone curve, not on EXR: srgb or filmic [srgb]");
-    command->add_option("--show", arguments->show,
-                        "picture, normals, labels, coverage (stripes where something unmeasured is asked for), theta-h "
-                        "or theta-d (of the brightest light) [picture]");
-    command->add_option("--layer", arguments->residual,
-                        "What the captured surface shows beyond its BRDF, where acquire kept it: on, off, or alone "
-                        "about middle grey [on]");
-    command->add_flag_function(
-        "--shadows,!--no-shadows", [arguments](int64_t count) { arguments->shadows = count > 0; },
+    SceneOptions& scene = arguments->scene;
+    scene.addTo(*command,
+                {.material = "In place of SURFACE, with --onto: FILE.binary (MERL), FILE.bsdf (RGL), FILE.exr (our "
+                             "table), NAME.nacre[#MATERIAL], or a model as synth takes it",
+                 .onto = "Put the first material onto these camera-frame normals: .exr, .png (16-bit best; n = 2v - 1, "
+                         "black = no data) or another NAME.nacre; a tangent-space map makes a flat piece seen from the "
+                         "front",
+                 .light = "x,y,z[,r,g,b]: direction towards the light (x right, y up, z towards the camera), "
+                          "irradiance (default 1); or captured:N; soft:DEGREES: before it spreads it. Repeatable "
+                          "(default: captured:1)",
+                 .environment = "Light from all around: latitude-longitude picture, .exr or .hdr, +z in its middle",
+                 .exposure = "Stops, not on EXR (default: the 99th percentile of radiance at 0.9)",
+                 .show =
+                     "picture, normals, labels, coverage (stripes where something unmeasured is asked for), theta-h "
+                     "or theta-d (of the brightest light) [picture]",
+                 .residual = "What the captured surface shows beyond its BRDF, where acquire kept it: on, off, or "
+                             "alone about middle grey [on]",
+                 .state = "JSON file whose keys are these options; the command line wins (docs/formats.md)"});
+    scene.add<int>(*command, "--environment-lights", &SceneDescription::environmentLights,
+                   "At most so many directional lights stand for it (default: 256)");
+    scene.add<std::string>(*command, "--rig", &SceneDescription::rig,
+                           "Lights by name: key, three-point, raking, ring, environment; or those of a file, as nacre "
+                           "calibrate writes it (docs/formats.md)");
+    scene.add<float>(*command, "--environment-turn", &SceneDescription::environmentTurn,
+                     "Degrees about the vertical axis");
+    scene.addParsed(*command, "--view", &SceneDescription::view, viewFromText,
+                    "x,y,z towards another distant viewer of the same normals (default: 0,0,1)");
+    scene.addParsed(*command, "--path", &SceneDescription::path, pathFromName,
+                    "auto, direct (a table lookup per pixel and light) or ball (one lookup a pixel) [auto]");
+    scene.addParsed(*command, "--tone", &SceneDescription::toneCurve, toneCurveFromName,
+                    "Tone curve, not on EXR: srgb or filmic [srgb]");
+    scene.addFlag(
+        *command, "--shadows,!--no-shadows", &SceneDescription::shadows,
         "The height casts shadows, where NAME.nacre has one; a captured surface's is integrated from its normals");
-    command->add_option("--frames", arguments->frames,
-                        "A sequence of so many: NAME_0001.png and so on, or one .webp of 25 a second");
-    command->add_option("--motion", arguments->motion,
-                        "How lights move over --frames: turntable (about the view), sweep (left to right), none "
-                        "[turntable]");
-    command->add_option("--state", arguments->state,
-                        "JSON file whose keys are these options; the command line wins (docs/formats.md)");
-    command->add_option("--device", arguments->device, "Vulkan device: number or part of its name, see nacre info");
+    scene.add<int>(*command, "--frames", &SceneDescription::frames,
+                   "A sequence of so many: NAME_0001.png and so on, or one .webp of 25 a second");
+    scene.addParsed(*command, "--motion", &SceneDescription::motion, motionFromName,
+                    "How lights move over --frames: turntable (about the view), sweep (left to right), none "
+                    "[turntable]");
     command
         ->add_option("-o,--output", arguments->output,
                      "Picture to write: .png (8-bit sRGB), .exr (linear) or .webp (lossless, animated)")

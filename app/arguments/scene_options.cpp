@@ -1,0 +1,67 @@
+#include "app/arguments/scene_options.h"
+
+namespace nacre {
+
+namespace {
+
+std::vector<LightSource> lightSourcesFrom(const std::vector<std::string>& texts)
+{
+    std::vector<LightSource> sources;
+    for (const std::string& text : texts) {
+        sources.push_back(lightSourceFromText(text));
+    }
+    return sources;
+}
+
+} // namespace
+
+void SceneOptions::addTo(CLI::App& command, const Help& help)
+{
+    using Scene = SceneDescription;
+    add<std::string>(command, "SURFACE", &Scene::surface, "Folder NAME.nacre that acquire wrote; or --material");
+    add<std::string>(command, "--material", &Scene::material, help.material);
+    command.add_option("--fits", fits,
+                       "Folder of merl_abc_params.csv and merl_sgd_params.csv [environment variable NACRE_FITS_DIR]");
+    command
+        .add_option_function<std::vector<std::string>>(
+            "--light",
+            [this](const std::vector<std::string>& texts) {
+                given_.push_back([texts](Scene& scene) { scene.lights = lightSourcesFrom(texts); });
+            },
+            help.light)
+        ->allow_extra_args(false);
+    add<std::string>(command, "--onto", &Scene::onto, help.onto);
+    addParsed(command, "--normal-y", &Scene::normalY, normalYFromName,
+              "Green of --onto's picture: gl (up, default) or dx (down)");
+    addParsed(
+        command, "--size", &Scene::size, [](const std::string& text) { return sizeFromArgument("--size", text); },
+        "WxH pixels to fit the surface into (default: its own size)");
+    add<float>(command, "--exposure", &Scene::exposure, help.exposure);
+    add<std::string>(command, "--environment", &Scene::environment, help.environment);
+    addParsed(command, "--show", &Scene::show, showFromName, help.show);
+    addParsed(command, "--layer", &Scene::residual, residualUseFromName, help.residual);
+    command.add_option("--state", state_, help.state);
+    command.add_option("--device", device, "Vulkan device: number or part of its name, see nacre info");
+}
+
+void SceneOptions::addFlag(CLI::App& command, const std::string& name, std::optional<bool> SceneDescription::*field,
+                           const std::string& help)
+{
+    command.add_flag_function(
+        name,
+        [this, field](int64_t count) {
+            given_.push_back([field, count](SceneDescription& scene) { scene.*field = count > 0; });
+        },
+        help);
+}
+
+SceneDescription SceneOptions::description() const
+{
+    SceneDescription scene = state_.empty() ? SceneDescription{} : sceneFromFile(state_);
+    for (const auto& set : given_) {
+        set(scene);
+    }
+    return scene;
+}
+
+} // namespace nacre
