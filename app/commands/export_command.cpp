@@ -12,9 +12,9 @@
 #include "engine/files/error.h"
 #include "engine/files/whole_file.h"
 #include "engine/loading/scene_loading.h"
-#include "engine/scene/picture_size.h"
 #include "engine/rti/ptm_file.h"
 #include "engine/rti/rti_web.h"
+#include "engine/scene/picture_size.h"
 
 namespace nacre {
 namespace fs = std::filesystem;

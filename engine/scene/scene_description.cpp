@@ -74,9 +74,15 @@ public:
     void read(const SceneJson& json, Show& value) const { value = showFromName(json.get<std::string>()); }
     void read(const SceneJson& json, ResidualUse& value) const { value = residualUseFromName(json.get<std::string>()); }
     void read(const SceneJson& json, LightSource& value) const { value = lightSourceFromText(json.get<std::string>()); }
-    void read(const SceneJson& json, PictureSize& value) const { value = sizeFromArgument("size", json.get<std::string>()); }
+    void read(const SceneJson& json, PictureSize& value) const
+    {
+        value = sizeFromArgument("size", json.get<std::string>());
+    }
     void read(const SceneJson& json, glm::vec3& value) const { value = viewFromText(json.get<std::string>()); }
-    void read(const SceneJson& json, glm::vec2& value) const { value = {json.at(0).get<float>(), json.at(1).get<float>()}; }
+    void read(const SceneJson& json, glm::vec2& value) const
+    {
+        value = {json.at(0).get<float>(), json.at(1).get<float>()};
+    }
     template <class T> void read(const SceneJson& json, std::optional<T>& value) const { read(json, value.emplace()); }
     template <class T> void read(const SceneJson& json, std::vector<T>& values) const
     {

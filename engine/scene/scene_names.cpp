@@ -33,7 +33,7 @@ template <class Names> auto valueOf(const Names& names, const char* what, const 
 {
     const auto found = std::find_if(names.begin(), names.end(), [&](const auto& known) { return known.first == name; });
     if (found == names.end()) {
-        throw Error("", fmt::format("{} '{}' is not known", what, name), expected, Error::kUsage);
+        throw Error("", fmt::format("{} {} is not known", what, name), expected, Error::kUsage);
     }
     return found->second;
 }

@@ -79,7 +79,10 @@ public:
         description_ = sceneFromFile(state);
         scene = loadScene(description_, state.parent_path(), context, false);
     }
-    Display display() const { return {.exposureStops = description_.exposure.value(), .toneCurve = description_.toneCurve}; }
+    Display display() const
+    {
+        return {.exposureStops = description_.exposure.value(), .toneCurve = description_.toneCurve};
+    }
     Image picture(const Scene& altered) const { return rendererOf(altered).picture(); }
     // By the CPU, along the path that the renderer takes.
     Image twin() const

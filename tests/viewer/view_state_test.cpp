@@ -20,20 +20,23 @@ ViewState fullState(const std::filesystem::path& folder)
         .onto = folder / "cloth.exr",
         .normalY = NormalY::dx,
         .size = PictureSize{640, 480},
+        .shadows = true,
         .lights = {{.captured = 3},
                    {.direction = {0.1f, -0.7f, 0.33333334f}, .irradiance = {1.1f, 0.3f, 7e-5f}, .softDegrees = 12.5f},
                    {.direction = {0, 0, 2}, .on = false}},
+        .rig = {}, // not in files
         .environment = folder / "sky.hdr",
         .environmentLights = 64,
         .environmentTurn = -33.3f,
-        .exposure = 0.1f,
-        .toneCurve = kToneFilmic,
         .view = glm::vec3(0.1f, 0, 1),
         .path = RenderPath::direct,
+        .exposure = 0.1f,
+        .toneCurve = kToneFilmic,
         .show = Show::coverage,
-        .framing = {.zoom = 1.7f, .centre = {100.1f, 30.3f}},
-        .shadows = true,
         .residual = ResidualUse::alone,
+        .frames = 7,
+        .motion = LightMotion::sweep,
+        .framing = {.zoom = 1.7f, .centre = {100.1f, 30.3f}},
         .materials = {"lambert:0.5", "merl:/x/gold.binary"},
         .targets = {folder / "head.nacre"},
         .environments = {folder / "sky.hdr", folder / "studio.exr"},
@@ -69,7 +72,7 @@ TEST(SceneNames, EveryChoiceHasOne)
     for (const RenderPath path : {RenderPath::automatic, RenderPath::direct, RenderPath::ball}) {
         EXPECT_EQ(pathFromName(nameOf(path)), path);
     }
-    expectError([] { residualUseFromName("half"); }, {"layer 'half' is not known", "on, off or alone"}, Error::kUsage);
+    expectError([] { residualUseFromName("half"); }, {"layer half is not known", "on, off or alone"}, Error::kUsage);
 }
 
 TEST(ViewState, DefaultsAreNotWritten)
