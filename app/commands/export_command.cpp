@@ -16,10 +16,10 @@
 #include "app/materials/export_rti.h"
 #include "engine/files/error.h"
 #include "engine/files/whole_file.h"
-#include "engine/loading/cast_shadows.h"
-#include "engine/loading/size_argument.h"
+#include "engine/loading/scene_loading.h"
 #include "engine/rti/ptm_file.h"
 #include "engine/rti/rti_web.h"
+#include "engine/scene/picture_size.h"
 #include "engine/surface/surface.h"
 #include "shared/glsl.h"
 

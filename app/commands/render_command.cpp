@@ -2,15 +2,23 @@
 
 #include <fmt/format.h>
 
+#include "app/arguments/scene_options.h"
 #include "app/commands/commands.h"
 #include "app/materials/render_output.h"
-#include "engine/loading/render_scene.h"
+#include "engine/loading/scene_loading.h"
 #include "engine/scene/scene_names.h"
 #include "engine/scene/scene_residual.h"
 
 namespace nacre {
 
 namespace {
+
+struct RenderArguments {
+    SceneOptions scene;
+    std::filesystem::path output;
+    bool force = false;
+    bool quiet = false;
+};
 
 // Software devices are called as their driver is: not twice.
 std::string describe(const DeviceInfo& device)
@@ -39,8 +47,7 @@ std::string describeDrawing(Renderer& renderer, const RenderOutput& output)
                                 : "none: false colours need no lookup";
 }
 
-void report(const Scene& scene, Renderer& renderer, const RenderArguments& arguments, const RenderOutput& output,
-            const RenderedOutput& rendered)
+void report(const Scene& scene, Renderer& renderer, const RenderOutput& output, const RenderedOutput& rendered)
 {
     noteUnmeasured(scene);
     const NormalMap& normals = scene.surface.normals;
@@ -57,25 +64,25 @@ void report(const Scene& scene, Renderer& renderer, const RenderArguments& argum
         fmt::print("residual     {} components, {}\n", scene.surface.residual.components, nameOf(output.residual));
     }
     if (output.isExposed()) {
-        fmt::print("exposure     {:+.2f} stops{}\n", rendered.stops, arguments.exposure ? "" : " (automatic)");
+        fmt::print("exposure     {:+.2f} stops{}\n", rendered.stops, output.exposure ? "" : " (automatic)");
     }
     fmt::print("wrote        {}{}\n", rendered.first.string(),
                output.frames > 1 && !output.isAnimation ? " and so on" : "");
 }
 
-void runRender(RenderArguments arguments)
+void runRender(const RenderArguments& arguments)
 {
-    completeFromState(arguments);
-    const RenderOutput output = checkedOutput(arguments);
-    checkSceneArguments(arguments);
-    const Context context(arguments.device);
-    const Scene scene = sceneFromArguments(arguments, context);
+    const SceneDescription description = arguments.scene.description();
+    const RenderOutput output = checkedOutput(description, arguments.output, arguments.force);
+    requireConsistent(description);
+    const Context context(arguments.scene.device);
+    const Scene scene = loadScene(description, arguments.scene.fits, context, arguments.quiet);
     Renderer renderer(context);
     renderer.setSurface(scene.surface);
     renderer.setView(scene.view);
-    const RenderedOutput rendered = renderFrames(renderer, arguments, output, scene);
+    const RenderedOutput rendered = renderFrames(renderer, output, scene);
     if (!arguments.quiet) {
-        report(scene, renderer, arguments, output, rendered);
+        report(scene, renderer, output, rendered);
     }
 }
 
@@ -85,78 +92,55 @@ void addRenderCommand(CLI::App& app)
 {
     auto arguments = std::make_shared<RenderArguments>();
     CLI::App* command = app.add_subcommand("render", "A surface, or its material on other normals, under any lights");
-    command->add_option("SURFACE", arguments->surface, "Folder NAME.nacre of nacre acquire; or --material");
-    command->add_option(
-        "--material", arguments->material,
-        "Material instead of SURFACE, for --onto: .binary (MERL), .bsdf (RGL), .exr, NAME.nacre[#MATERIAL] or a model");
-    command
-        ->add_option("--fits", arguments->fits,
-                     "Folder of merl_abc_params.csv and merl_sgd_params.csv (default: $NACRE_FITS_DIR)")
-        ->group("Materials and shapes");
-    command
-        ->add_option("--light", arguments->lights,
-                     "Light: direction x,y,z[,r,g,b] with irradiance [1]; captured:N; soft:DEGREES: in front spreads "
-                     "it. Repeatable (default: captured:1)")
-        ->allow_extra_args(false);
-    command->add_option(
-        "--onto", arguments->onto,
-        "Shape for the first material: camera-frame or tangent-space normals (.exr, .png) or NAME.nacre");
-    command->add_option("--normal-y", arguments->normalY, "Green of the normals of --onto: gl (up) or dx (down) [gl]")
-        ->group("Materials and shapes");
-    command->add_option("--size", arguments->size,
-                        "Size in pixels that the surface is fitted into, WxH (default: its own)");
-    command->add_option("--exposure", arguments->exposure,
-                        "Exposure in stops, not for .exr (default: 99th percentile of radiance at 0.9)");
-    command->add_option("--environment", arguments->environment,
-                        "Latitude-longitude picture of the light from all around, .exr or .hdr");
-    command
-        ->add_option("--environment-lights", arguments->environmentLights,
-                     "Largest number of directional lights for --environment (default: 256)")
+    SceneOptions& scene = arguments->scene;
+    scene.addTo(
+        *command,
+        {.material = "Material instead of SURFACE, for --onto: .binary (MERL), .bsdf (RGL), .exr, "
+                     "NAME.nacre[#MATERIAL] or a model",
+         .onto = "Shape for the first material: camera-frame or tangent-space normals (.exr, .png) or NAME.nacre",
+         .light = "Light: direction x,y,z[,r,g,b] with irradiance [1]; captured:N; soft:DEGREES: in front spreads "
+                  "it. Repeatable (default: captured:1)",
+         .environment = "Latitude-longitude picture of the light from all around, .exr or .hdr",
+         .exposure = "Exposure in stops, not for .exr (default: 99th percentile of radiance at 0.9)",
+         .show = "Content: picture, normals, labels, coverage (stripes where not measured), theta-h or theta-d of "
+                 "the brightest light [picture]",
+         .layer = "Residual layer of the captured surface: on, off, or alone about middle grey [on]",
+         .state = "JSON file whose keys are these options; the command line takes precedence"});
+    scene.add<std::string>(*command, "--rig", &SceneDescription::rig,
+                           "Lights by name: key, three-point, raking, ring, environment; or a file of lights");
+    scene
+        .add<int>(*command, "--environment-lights", &SceneDescription::environmentLights,
+                  "Largest number of directional lights for --environment (default: 256)")
         ->group("Lights");
-    command->add_option("--rig", arguments->rig,
-                        "Lights by name: key, three-point, raking, ring, environment; or a file of lights");
-    command
-        ->add_option("--environment-turn", arguments->environmentTurn,
-                     "Turn of --environment about the vertical axis in degrees (default: 0)")
+    scene
+        .add<float>(*command, "--environment-turn", &SceneDescription::environmentTurn,
+                    "Turn of --environment about the vertical axis in degrees (default: 0)")
         ->group("Lights");
-    command->add_option("--view", arguments->view, "Direction x,y,z towards the viewer (default: 0,0,1)")
+    scene
+        .addParsed(*command, "--view", &SceneDescription::view, viewFromText,
+                   "Direction x,y,z towards the viewer (default: 0,0,1)")
         ->group("Picture");
-    command
-        ->add_option("--path", arguments->path,
-                     "Lookups: direct (one per pixel and light), ball (one per pixel) or auto [auto]")
+    scene
+        .addParsed(*command, "--path", &SceneDescription::path, pathFromName,
+                   "Lookups: direct (one per pixel and light), ball (one per pixel) or auto [auto]")
         ->group("Picture");
-    command->add_option("--tone", arguments->tone, "Tone curve, not for .exr: srgb or filmic [srgb]")->group("Picture");
-    command
-        ->add_option("--show", arguments->show,
-                     "Content: picture, normals, labels, coverage (stripes where not measured), theta-h or theta-d of "
-                     "the brightest light [picture]")
+    scene
+        .addParsed(*command, "--tone", &SceneDescription::toneCurve, toneCurveFromName,
+                   "Tone curve, not for .exr: srgb or filmic [srgb]")
         ->group("Picture");
-    command
-        ->add_option("--layer", arguments->residual,
-                     "Residual layer of the captured surface: on, off, or alone about middle grey [on]")
+    scene
+        .addFlag(*command, "--shadows,!--no-shadows", &SceneDescription::shadows,
+                 "Cast shadows, from the height of the surface or from its integrated normals")
         ->group("Picture");
-    command
-        ->add_flag_function(
-            "--shadows,!--no-shadows", [arguments](int64_t count) { arguments->shadows = count > 0; },
-            "Cast shadows, from the height of the surface or from its integrated normals")
+    scene
+        .add<int>(*command, "--frames", &SceneDescription::frames,
+                  "Number of frames: NAME_0001.png and so on, or one .webp of 25 a second")
         ->group("Picture");
-    command
-        ->add_option("--frames", arguments->frames,
-                     "Number of frames: NAME_0001.png and so on, or one .webp of 25 a second")
-        ->group("Picture");
-    command
-        ->add_option(
-            "--motion", arguments->motion,
+    scene
+        .addParsed(
+            *command, "--motion", &SceneDescription::motion, motionFromName,
             "Motion of the lights over --frames: turntable (about the view), sweep (left to right), none [turntable]")
         ->group("Picture");
-    command
-        ->add_option("--state", arguments->state,
-                     "JSON file whose keys are these options; the command line takes precedence")
-        ->group("Running");
-    command
-        ->add_option("--device", arguments->device,
-                     "Vulkan device: number or part of its name in nacre info (default: the first)")
-        ->group("Running");
     command
         ->add_option("-o,--output", arguments->output,
                      "Picture to write: .png (8-bit sRGB), .exr (linear) or .webp (lossless, animated)")

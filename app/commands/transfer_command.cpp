@@ -9,7 +9,7 @@
 #include "engine/files/stopwatch.h"
 #include "engine/files/whole_file.h"
 #include "engine/gpu/texture.h"
-#include "engine/loading/size_argument.h"
+#include "engine/scene/picture_size.h"
 
 namespace nacre {
 

@@ -8,7 +8,6 @@
 #include "app/arguments/destinations.h"
 #include "engine/files/animation_file.h"
 #include "engine/files/error.h"
-#include "engine/scene/scene_names.h"
 #include "engine/scene/scene_residual.h"
 
 namespace nacre {
@@ -19,33 +18,6 @@ namespace {
 constexpr int kMostFrames = 10000;
 constexpr const char* kAnimation = ".webp";
 constexpr int kExposureFrames = 8; // of a sequence, to find one exposure for all
-
-Error notKnown(const char* option, const std::string& value, const char* expected)
-{
-    return Error("", fmt::format("{} {} is not known", option, value), expected, Error::kUsage);
-}
-
-RenderPath pathFromArgument(const std::string& text)
-{
-    if (text.empty() || text == "auto") {
-        return RenderPath::automatic;
-    }
-    if (text != "ball" && text != "direct") {
-        throw notKnown("--path", text, "auto, direct or ball");
-    }
-    return text == "ball" ? RenderPath::ball : RenderPath::direct;
-}
-
-LightMotion motionFromArgument(const std::string& text, int frames)
-{
-    if (text.empty()) {
-        return frames > 1 ? LightMotion::turntable : LightMotion::none;
-    }
-    if (text != "turntable" && text != "sweep" && text != "none") {
-        throw notKnown("--motion", text, "turntable, sweep or none");
-    }
-    return text == "none" ? LightMotion::none : text == "sweep" ? LightMotion::sweep : LightMotion::turntable;
-}
 
 // One for all frames of an animation.
 fs::path fileOfFrame(const fs::path& output, int frame, int frames)
@@ -76,17 +48,17 @@ float commonExposure(Renderer& renderer, const RenderOutput& output, const std::
 }
 
 // That EXR is not asked for what only pictures for the eye have.
-void checkLook(const RenderArguments& arguments, const RenderOutput& output)
+void checkLook(const RenderOutput& output)
 {
-    if (output.isRadiance && (arguments.exposure || !arguments.tone.empty())) {
-        throw Error(arguments.output, "knows no exposure and no tone curve, EXR holds linear radiance",
+    if (output.isRadiance && (output.exposure || output.toneCurve != kToneSrgb)) {
+        throw Error(output.file, "knows no exposure and no tone curve, EXR holds linear radiance",
                     "--exposure and --tone with a .png only", Error::kUsage);
     }
     if (output.isRadiance && output.path == RenderPath::ball) {
-        throw Error(arguments.output, "is radiance, which balls for the display do not hold", "--path ball with .png",
+        throw Error(output.file, "is radiance, which balls for the display do not hold", "--path ball with .png",
                     Error::kUsage);
     }
-    if (arguments.exposure && !std::isfinite(*arguments.exposure)) {
+    if (output.exposure && !std::isfinite(*output.exposure)) {
         throw Error("", "--exposure is not finite", "a number of stops", Error::kUsage);
     }
     if (output.show == Show::verdicts) {
@@ -94,64 +66,64 @@ void checkLook(const RenderArguments& arguments, const RenderOutput& output)
                     Error::kUsage);
     }
     if (output.isRadiance && output.show != Show::picture) {
-        throw Error(arguments.output, "is radiance, which has no false colours", "--show with .png or .webp",
-                    Error::kUsage);
+        throw Error(output.file, "is radiance, which has no false colours", "--show with .png or .webp", Error::kUsage);
     }
     if (output.isRadiance && output.residual == ResidualUse::alone) {
-        throw Error(arguments.output, "is radiance, which is not drawn about middle grey",
+        throw Error(output.file, "is radiance, which is not drawn about middle grey",
                     "--layer alone with .png or .webp", Error::kUsage);
     }
 }
 
 } // namespace
 
-RenderOutput checkedOutput(const RenderArguments& arguments)
+RenderOutput checkedOutput(const SceneDescription& scene, const fs::path& file, bool force)
 {
-    const std::string extension = arguments.output.extension().string();
+    const std::string extension = file.extension().string();
     if (extension != ".png" && extension != ".exr" && extension != kAnimation) {
-        throw Error(arguments.output, "is no picture that render writes",
+        throw Error(file, "is no picture that render writes",
                     ".png (8-bit sRGB) or .exr (linear radiance) or .webp (animated)", Error::kUsage);
     }
-    RenderOutput output;
-    output.frames = arguments.frames.value_or(1);
-    if (output.frames < 1 || output.frames > kMostFrames) {
-        throw Error("", fmt::format("--frames {} is out of range", output.frames), fmt::format("1 to {}", kMostFrames),
+    if (scene.frames < 1 || scene.frames > kMostFrames) {
+        throw Error("", fmt::format("--frames {} is out of range", scene.frames), fmt::format("1 to {}", kMostFrames),
                     Error::kUsage);
     }
-    output.motion = motionFromArgument(arguments.motion, output.frames);
-    output.path = pathFromArgument(arguments.path);
-    output.toneCurve = toneCurveFromName(arguments.tone);
-    output.show = showFromName(arguments.show);
-    output.residual = residualUseFromName(arguments.residual);
-    output.isRadiance = extension == ".exr";
-    output.isAnimation = extension == kAnimation;
-    checkLook(arguments, output);
+    const RenderOutput output{.file = file,
+                              .frames = scene.frames,
+                              .motion =
+                                  scene.motion.value_or(scene.frames > 1 ? LightMotion::turntable : LightMotion::none),
+                              .path = scene.path,
+                              .exposure = scene.exposure,
+                              .toneCurve = scene.toneCurve,
+                              .show = scene.show,
+                              .residual = scene.residual,
+                              .isRadiance = extension == ".exr",
+                              .isAnimation = extension == kAnimation};
+    checkLook(output);
     for (int frame = 0; frame < output.frames; ++frame) {
-        requireDestination(fileOfFrame(arguments.output, frame, output.frames), arguments.force);
+        requireDestination(fileOfFrame(file, frame, output.frames), force);
     }
     return output;
 }
 
-RenderedOutput renderFrames(Renderer& renderer, const RenderArguments& arguments, const RenderOutput& output,
-                            const Scene& scene)
+RenderedOutput renderFrames(Renderer& renderer, const RenderOutput& output, const Scene& scene)
 {
     const std::vector<ImageAttribute> attributes = attributesOf(renderer.context().info());
     std::optional<AnimationFile> animation;
     if (output.isAnimation) {
-        animation.emplace(arguments.output, scene.surface.normals.width, scene.surface.normals.height);
+        animation.emplace(output.file, scene.surface.normals.width, scene.surface.normals.height);
     }
-    RenderedOutput rendered{.first = fileOfFrame(arguments.output, 0, output.frames)};
+    RenderedOutput rendered{.first = fileOfFrame(output.file, 0, output.frames)};
     renderer.setPath(output.path);
     renderer.setShow(output.show);
     renderer.setResidual(residualOfExposure(output.residual));
     if (output.isExposed()) {
-        rendered.stops = arguments.exposure ? *arguments.exposure : commonExposure(renderer, output, scene.lights);
+        rendered.stops = output.exposure ? *output.exposure : commonExposure(renderer, output, scene.lights);
         renderer.setDisplay({.exposureStops = rendered.stops, .toneCurve = output.toneCurve});
     }
     renderer.setResidual(output.residual);
     for (int frame = 0; frame < output.frames; ++frame) {
         renderer.setLights(movedLights(scene.lights, output.motion, frame, output.frames));
-        const fs::path file = fileOfFrame(arguments.output, frame, output.frames);
+        const fs::path file = fileOfFrame(output.file, frame, output.frames);
         if (animation) {
             animation->add(renderer.picture());
         } else if (output.isRadiance) {

@@ -1,16 +1,17 @@
 #pragma once
 #include "engine/gpu/renderer.h"
-#include "engine/lights/light_motion.h"
-#include "engine/loading/render_arguments.h"
+#include "engine/scene/scene_description.h"
 
 namespace nacre {
 
-// What is written, from the output's extension and --frames: .exr holds linear radiance, .png is exposed for the
+// What is written, from the file's extension and the frames: .exr holds linear radiance, .png is exposed for the
 // eye, and so is .webp. Several frames make numbered pictures (NAME_0001.png), or one .webp that moves.
 struct RenderOutput {
+    std::filesystem::path file;
     int frames = 1;
     LightMotion motion = LightMotion::none;
     RenderPath path = RenderPath::automatic;
+    std::optional<float> exposure; // stops; empty: automatic
     int toneCurve = kToneSrgb;
     Show show = Show::picture;
     ResidualUse residual = ResidualUse::on;
@@ -22,7 +23,7 @@ struct RenderOutput {
 };
 
 // Throws Error (usage) where options contradict each other, Error (data) where the output cannot be written.
-RenderOutput checkedOutput(const RenderArguments& arguments);
+RenderOutput checkedOutput(const SceneDescription& scene, const std::filesystem::path& file, bool force);
 
 struct RenderedOutput {
     std::filesystem::path first; // file
@@ -30,7 +31,6 @@ struct RenderedOutput {
 };
 
 // Draws and writes all frames of the scene, whose surface and view the renderer has.
-RenderedOutput renderFrames(Renderer& renderer, const RenderArguments& arguments, const RenderOutput& output,
-                            const Scene& scene);
+RenderedOutput renderFrames(Renderer& renderer, const RenderOutput& output, const Scene& scene);
 
 } // namespace nacre

@@ -10,7 +10,7 @@
 #include "engine/files/stopwatch.h"
 #include "engine/gpu/context.h"
 #include "engine/gpu/texture.h"
-#include "engine/loading/light_argument.h"
+#include "engine/scene/light_source.h"
 #include "engine/target/height_map.h"
 #include "engine/target/mesh_file.h"
 #include "engine/target/mesh_raster.h"

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/loading/size_argument.h"
+#include "engine/scene/picture_size.h"
 #include "engine/surface/surface.h"
 
 namespace nacre {

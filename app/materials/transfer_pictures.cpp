@@ -129,16 +129,15 @@ private:
     // Answers the first frame.
     Image save(const Scene& scene, const TransferPicture& picture)
     {
-        RenderArguments arguments;
         RenderOutput output = output_;
         output.path = scene.lights.size() <= kMostDirectLights ? RenderPath::direct : RenderPath::automatic;
         const char* between = picture.target == kBall ? "" : "on_";
-        arguments.output = folder_ / fmt::format("{}_{}_{}{}.png", picture.rig, picture.row, between, picture.target);
-        renderFrames(renderer_, arguments, output, scene);
+        output.file = folder_ / fmt::format("{}_{}_{}{}.png", picture.rig, picture.row, between, picture.target);
+        renderFrames(renderer_, output, scene);
         if (output.frames > 1) {
             output.isAnimation = true;
-            arguments.output.replace_extension(".webp");
-            renderFrames(renderer_, arguments, output, scene);
+            output.file.replace_extension(".webp");
+            renderFrames(renderer_, output, scene);
         }
         if (output.path == RenderPath::automatic) {
             ballSizes_ = renderer_.ballSizes();

@@ -17,7 +17,7 @@
 #include "engine/files/error.h"
 #include "engine/files/stopwatch.h"
 #include "engine/lights/light_rigs.h"
-#include "engine/loading/cast_shadows.h"
+#include "engine/loading/scene_loading.h"
 #include "engine/materials/material_specification.h"
 
 namespace nacre {

@@ -12,11 +12,6 @@
 
 namespace nacre {
 
-// direct: per pixel and light one lookup of the material's table; any view. ball: per pixel one lookup of the
-// material's ball, which holds all lights; v = (0,0,1) only. automatic: ball where every material's ball is small
-// enough and the view is from the front.
-enum class RenderPath { automatic, direct, ball };
-
 // Draws a surface under distant lights, without a window. Whatever is set is uploaded once and stays; nothing is drawn
 // twice. A picture depends on what is set alone, not on what was set before. The context must live longer.
 class Renderer {

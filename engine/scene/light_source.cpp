@@ -21,7 +21,7 @@ constexpr std::string_view kCaptured = "captured:";
 
 Error lightError(const std::string& text, const std::string& wrong, const std::string& expected)
 {
-    return Error("", fmt::format("--light {} {}", text, wrong), expected, Error::kUsage);
+    return Error("", fmt::format("light {} {}", text, wrong), expected, Error::kUsage);
 }
 
 // Takes `prefix` off the front of `rest`; false where something else is there.

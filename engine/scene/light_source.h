@@ -19,9 +19,9 @@ struct LightSource {
     bool operator==(const LightSource&) const = default;
 };
 
-// One value of --light: "x,y,z" or "x,y,z,r,g,b" (irradiance 1 where it is not given), or "captured:N"; "soft:DEGREES:"
-// before it spreads the light as kSoftLights directional ones, "off:" before that switches it off. Throws Error
-// (usage).
+// As command lines and state files have it: "x,y,z" or "x,y,z,r,g,b" (irradiance 1 where it is not given), or
+// "captured:N"; "soft:DEGREES:" before it spreads the light as kSoftLights directional ones, "off:" before that
+// switches it off. Throws Error (usage).
 LightSource lightSourceFromText(const std::string& text);
 
 // The inverse, exact to the bit.

@@ -17,12 +17,10 @@ void requireResidual(const Surface& surface, const glm::vec3& view, ResidualUse 
         return;
     }
     if (surface.residual.empty()) {
-        throw Error("", "--layer alone: what is drawn has no residual layer",
-                    "a surface of nacre acquire --residual difference, on its own shape and in its own materials",
-                    Error::kUsage);
+        throw Error("", "what is drawn has no residual layer to show alone",
+                    "a surface that was acquired with one, on its own shape and in its own materials", Error::kUsage);
     }
-    throw Error("", "--layer alone: the residual layer is for the view from the front", "--view 0,0,1 or none",
-                Error::kUsage);
+    throw Error("", "the residual layer alone is for the view from the front", "the view 0,0,1 or none", Error::kUsage);
 }
 
 size_t lightsBeyondResidual(const ResidualLayer& layer, std::span<const Light> lights)

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "engine/files/error.h"
+#include "engine/materials/material_specification.h"
 
 namespace nacre {
 
@@ -118,7 +119,7 @@ void BackgroundLoads::follow(const ViewState& wanted, const Choices& choices, co
 void BackgroundLoads::open(const std::filesystem::path& folder)
 {
     sceneLoader_.start(fmt::format("reading {}", folder.filename().string()), [this, folder](Loader::Progress&) {
-        Choices choices = source_.choices(folder);
+        Choices choices = choicesOfSurface(folder);
         ViewState state;
         state.surface = folder;
         resolveCaptured(state, choices.captured);
@@ -175,7 +176,7 @@ void BackgroundLoads::readNextMaterial(const Choices& choices)
         }
         const std::string named = specification.empty() ? choices.surface.string() : specification;
         materialLoader_.start("", [this, specification, named](Loader::Progress&) {
-            const auto material = std::make_shared<const Material>(source_.material(named));
+            const auto material = std::make_shared<const Material>(loadMaterial(named, fitsFolderFrom(source_.fits)));
             return [this, specification, material] { done_.material.emplace(specification, material); };
         });
     }

@@ -1,5 +1,5 @@
 #pragma once
-#include "engine/viewer/view_state.h"
+#include "engine/scene/scene_description.h"
 
 namespace nacre {
 

@@ -1,19 +1,30 @@
 #include "engine/viewer/scene_source.h"
 
 #include "engine/files/error.h"
+#include "engine/loading/scene_loading.h"
 
 namespace nacre {
 
 namespace {
 
-std::shared_ptr<const DrawnSurface> drawnSurface(const SceneSource& source, const SceneFile& scene)
+std::shared_ptr<const DrawnSurface> drawnSurface(const SceneSource& source, const ViewState& scene)
 {
     auto drawn = std::make_shared<DrawnSurface>();
-    drawn->surface = source.surface(scene);
+    drawn->surface = loadDrawnSurface(scene, source.fits, source.context);
     for (const Material& material : drawn->surface.materials) {
         drawn->ballSizes.push_back(measuredBallSize(material.table));
     }
     return drawn;
+}
+
+// The scene that draws the wipe's other side.
+ViewState otherPart(const ViewState& state, const Choices& choices)
+{
+    ViewState scene = loadedPart(state);
+    scene.surface.clear();
+    scene.material = state.wipe.material;
+    scene.onto = state.onto.empty() ? choices.surface : state.onto;
+    return scene;
 }
 
 } // namespace
@@ -24,17 +35,18 @@ void requireShown(const ViewState& state, const SceneSource& source)
         return;
     }
     if (!source.photographs) {
-        throw Error("", "--show verdicts needs the photographs", "--capture FOLDER with it", Error::kUsage);
+        throw Error("", "verdicts need the photographs", "the capture that the surface was measured from",
+                    Error::kUsage);
     }
     if (!shownPhotograph(state)) {
-        throw Error("", "--show verdicts is of one photograph",
-                    "--light captured:N alone, and the surface on its own shape", Error::kUsage);
+        throw Error("", "verdicts are of one photograph",
+                    "the light captured:N alone, and the surface on its own shape", Error::kUsage);
     }
 }
 
-SceneFile loadedPart(const ViewState& state)
+ViewState loadedPart(const ViewState& state)
 {
-    SceneFile scene;
+    ViewState scene;
     scene.surface = state.surface;
     scene.material = state.material;
     scene.onto = state.onto;
@@ -44,23 +56,14 @@ SceneFile loadedPart(const ViewState& state)
     return scene;
 }
 
-SceneFile otherPart(const ViewState& state, const Choices& choices)
-{
-    SceneFile scene = loadedPart(state);
-    scene.surface.clear();
-    scene.material = state.wipe.material;
-    scene.onto = state.onto.empty() ? choices.surface : state.onto;
-    return scene;
-}
-
 LoadedScene loadScene(const SceneSource& source, const ViewState& state, const Choices& choices,
                       const ViewState& stateBefore, const LoadedScene& before)
 {
     LoadedScene loaded;
-    const SceneFile scene = loadedPart(state);
+    const ViewState scene = loadedPart(state);
     loaded.main = before.main && scene == loadedPart(stateBefore) ? before.main : drawnSurface(source, scene);
     if (!state.wipe.material.empty()) {
-        const SceneFile other = otherPart(state, choices);
+        const ViewState other = otherPart(state, choices);
         loaded.other =
             before.other && other == otherPart(stateBefore, choices) ? before.other : drawnSurface(source, other);
     }

@@ -1,8 +1,8 @@
 #pragma once
-#include <functional>
 #include <memory>
 #include <optional>
 
+#include "engine/gpu/context.h"
 #include "engine/lights/environment.h"
 #include "engine/scene/ball_size.h"
 #include "engine/surface/surface.h"
@@ -11,13 +11,10 @@
 
 namespace nacre {
 
-// How what a state names is read; by the background as well. All throw Error.
+// From what a state is read beside the files that it names; by the background as well.
 struct SceneSource {
-    // What a scene file's surface, material, onto, normalY and size draw.
-    std::function<Surface(const SceneFile&)> surface;
-    std::function<Material(const std::string& specification)> material;
-    std::function<glm::vec3(const SceneFile&)> view;              // unit, towards the viewer
-    std::function<Choices(const std::filesystem::path&)> choices; // of a surface
+    const Context& context;
+    std::filesystem::path fits; // of fitted models; empty: none given
     std::optional<Photographs> photographs;
 };
 
@@ -37,11 +34,8 @@ struct LoadedScene {
 // Throws Error (usage) where the state shows verdicts, its captured lights resolved, and no photograph is at hand.
 void requireShown(const ViewState& state, const SceneSource& source);
 
-// The part of a state that loading depends on: states that share it share what is loaded.
-SceneFile loadedPart(const ViewState& state);
-
-// The scene that draws the wipe's other side.
-SceneFile otherPart(const ViewState& state, const Choices& choices);
+// The part of a state that loading surfaces depends on: states that share it share what is loaded.
+ViewState loadedPart(const ViewState& state);
 
 // `before` is taken from where it was loaded for the same. Throws Error.
 LoadedScene loadScene(const SceneSource& source, const ViewState& state, const Choices& choices,

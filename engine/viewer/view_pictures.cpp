@@ -3,24 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include <glm/trigonometric.hpp>
-
+#include "engine/loading/scene_loading.h"
 #include "engine/scene/scene_residual.h"
 #include "engine/viewer/picture_texture.h"
 
 namespace nacre {
-
-std::vector<Light> lightsOfView(const ViewState& state, const Environment* environment,
-                                std::span<const CapturedLight> captured)
-{
-    std::vector<Light> lights = lightsOf(state.lights, captured);
-    if (environment != nullptr) {
-        const std::vector<Light> more = lightsFromEnvironment(
-            *environment, state.environmentLights.value_or(kEnvironmentLights), glm::radians(state.environmentTurn));
-        lights.insert(lights.end(), more.begin(), more.end());
-    }
-    return lights;
-}
 
 void ViewPictures::setScene(const LoadedScene& scene)
 {
@@ -62,7 +49,7 @@ void ViewPictures::applyVerdicts(const ViewState& state)
 
 void ViewPictures::apply(ViewState& state, const glm::vec3& view, std::span<const CapturedLight> captured)
 {
-    lights_ = lightsOfView(state, scene_.environment.get(), captured);
+    lights_ = lightsOfScene(state, scene_.environment.get(), captured);
     wipeAt_ = state.wipe.at;
     if (!state.exposure) {
         main_.setView(view);

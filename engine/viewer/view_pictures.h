@@ -58,8 +58,4 @@ private:
     float wipeAt_ = 1;
 };
 
-// The directional lights of a state, environment included.
-std::vector<Light> lightsOfView(const ViewState& state, const Environment* environment,
-                                std::span<const CapturedLight> captured);
-
 } // namespace nacre

@@ -10,7 +10,6 @@
 
 #include "engine/files/error.h"
 #include "engine/files/whole_file.h"
-#include "engine/scene/scene_file.h"
 #include "engine/scene/scene_residual.h"
 #include "engine/viewer/background_loads.h"
 #include "engine/viewer/comparison.h"
@@ -49,7 +48,7 @@ std::filesystem::path stateFileOf(std::filesystem::path picture)
 // With the state in its metadata, and beside it as NAME.json.
 void saveScreenshot(const std::filesystem::path& file, const Image& picture, const ViewState& state)
 {
-    const std::string text = textOf(sceneFileOf(state), file.parent_path());
+    const std::string text = textOf(state, file.parent_path());
     saveImage(file, picture, PixelType::uint8, {{kStateAttribute, text}});
     writeTextFile(stateFileOf(file), text);
 }
@@ -124,7 +123,7 @@ ViewerWindow::ViewerWindow(const Context& context, ViewState state, Choices choi
       comparison_(context), input_(std::move(state), std::move(choices)), session_(input_.session),
       loads_(source, session_.state, Window::wake)
 {
-    view_ = source_.view(sceneFileOf(session_.state));
+    view_ = viewDirectionOf(session_.state);
     takeScene(session_.state, loadScene(source_, session_.state, input_.choices, {}, {}));
     requireResidual(pictures_.scene().main->surface, view_, session_.state.residual);
     applyState();
@@ -395,7 +394,7 @@ void viewHeadless(const Context& context, ViewState state, const Choices& choice
         pictures.setPhotographs(&*source.photographs);
     }
     pictures.setScene(loadScene(source, state, choices, {}, {}));
-    const glm::vec3 view = source.view(sceneFileOf(state));
+    const glm::vec3 view = viewDirectionOf(state);
     requireResidual(pictures.scene().main->surface, view, state.residual);
     pictures.apply(state, view, choices.captured);
     saveScreenshot(output, pictures.picture(), state);

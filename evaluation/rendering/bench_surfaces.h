@@ -1,7 +1,7 @@
 #pragma once
 #include <vector>
 
-#include "engine/loading/size_argument.h"
+#include "engine/scene/picture_size.h"
 #include "engine/surface/surface.h"
 
 namespace nacre {

@@ -121,7 +121,7 @@ TEST_F(ResidualCommand, WhatCannotBeIsAUsageError)
         EXPECT_EQ(run.exitCode, 2);
         EXPECT_NE(run.err.find(fragment), std::string::npos) << run.err;
     };
-    refused(render("difference.nacre", "no.png", {"--layer", "half"}), "--layer half is not known; on, off");
+    refused(render("difference.nacre", "no.png", {"--layer", "half"}), "layer half is not known; on, off");
     refused(render("none.nacre", "no.png", {"--layer", "alone"}), "has no residual layer");
     refused(render("difference.nacre", "no.png", {"--layer", "alone", "--onto", path("none.nacre")}),
             "has no residual layer");

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cstdio>
 
-#include "app/materials/render_output.h"
-#include "engine/loading/render_scene.h"
+#include "engine/gpu/renderer.h"
+#include "engine/loading/scene_loading.h"
 #include "engine/scene/ball.h"
 #include "engine/scene/reference.h"
 #include "tests/gpu/golden_inputs.h"
@@ -76,14 +76,13 @@ class MutableState {
 public:
     MutableState(const fs::path& state, const Context& context) : context_(context)
     {
-        arguments_.state = state;
-        arguments_.fits = state.parent_path();
-        arguments_.output = state.parent_path() / "picture.png";
-        completeFromState(arguments_);
-        output_ = checkedOutput(arguments_);
-        scene = sceneFromArguments(arguments_, context);
+        description_ = sceneFromFile(state);
+        scene = loadScene(description_, state.parent_path(), context, false);
     }
-    Display display() const { return {.exposureStops = arguments_.exposure.value(), .toneCurve = output_.toneCurve}; }
+    Display display() const
+    {
+        return {.exposureStops = description_.exposure.value(), .toneCurve = description_.toneCurve};
+    }
     Image picture(const Scene& altered) const { return rendererOf(altered).picture(); }
     // By the CPU, along the path that the renderer takes.
     Image twin() const
@@ -102,14 +101,13 @@ private:
         renderer.setSurface(altered.surface);
         renderer.setLights(altered.lights);
         renderer.setView(altered.view);
-        renderer.setPath(output_.path);
+        renderer.setPath(description_.path);
         renderer.setDisplay(display());
         return renderer;
     }
 
     const Context& context_;
-    RenderArguments arguments_;
-    RenderOutput output_;
+    SceneDescription description_;
 };
 
 void expectMissed(const char* mutant, const Image& picture, const Image& golden)

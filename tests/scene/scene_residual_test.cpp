@@ -18,7 +18,7 @@ TEST(SceneResidual, AloneNeedsALayerFromTheFront)
     EXPECT_TRUE(hasResidualFrom(surface, kFront));
     EXPECT_FALSE(hasResidualFrom(surface, aside));
     EXPECT_NO_THROW(requireResidual(surface, kFront, ResidualUse::alone));
-    expectError([&] { requireResidual(surface, aside, ResidualUse::alone); }, {"--layer alone", "from the front"},
+    expectError([&] { requireResidual(surface, aside, ResidualUse::alone); }, {"layer alone", "from the front"},
                 Error::kUsage);
     surface.residual = {};
     expectError([&] { requireResidual(surface, kFront, ResidualUse::alone); }, {"has no residual layer"},

@@ -1,8 +1,9 @@
-#include "engine/viewer/view_state.h"
+#include "engine/scene/scene_description.h"
 
 #include <gtest/gtest.h>
 
 #include "engine/files/whole_file.h"
+#include "engine/scene/scene_names.h"
 #include "engine/viewer/choices.h"
 #include "tests/support/expect_error.h"
 #include "tests/support/temp_folder.h"
@@ -17,22 +18,25 @@ ViewState fullState(const std::filesystem::path& folder)
         .surface = folder / "a" / "horse.nacre",
         .material = "ggx:alpha=0.2",
         .onto = folder / "cloth.exr",
-        .normalY = "dx",
-        .size = "640x480",
+        .normalY = NormalY::dx,
+        .size = PictureSize{640, 480},
+        .shadows = true,
         .lights = {{.captured = 3},
                    {.direction = {0.1f, -0.7f, 0.33333334f}, .irradiance = {1.1f, 0.3f, 7e-5f}, .softDegrees = 12.5f},
                    {.direction = {0, 0, 2}, .on = false}},
+        .rig = {}, // not in files
         .environment = folder / "sky.hdr",
         .environmentLights = 64,
         .environmentTurn = -33.3f,
+        .view = glm::vec3(0.1f, 0, 1),
+        .path = RenderPath::direct,
         .exposure = 0.1f,
         .toneCurve = kToneFilmic,
-        .view = "0.1,0,1",
-        .path = "direct",
         .show = Show::coverage,
-        .framing = {.zoom = 1.7f, .centre = {100.1f, 30.3f}},
-        .shadows = true,
         .residual = ResidualUse::alone,
+        .frames = 7,
+        .motion = LightMotion::sweep,
+        .framing = {.zoom = 1.7f, .centre = {100.1f, 30.3f}},
         .materials = {"lambert:0.5", "merl:/x/gold.binary"},
         .targets = {folder / "head.nacre"},
         .environments = {folder / "sky.hdr", folder / "studio.exr"},
@@ -41,10 +45,8 @@ ViewState fullState(const std::filesystem::path& folder)
 
 ViewState throughFile(const ViewState& state, const std::filesystem::path& file)
 {
-    writeTextFile(file, textOf(sceneFileOf(state), file.parent_path()));
-    SceneFile scene;
-    completeScene(scene, file);
-    return viewStateOf(scene);
+    writeTextFile(file, textOf(state, file.parent_path()));
+    return sceneFromFile(file);
 }
 
 TEST(ViewState, ComesBackFromItsFileToTheBit)
@@ -55,27 +57,27 @@ TEST(ViewState, ComesBackFromItsFileToTheBit)
     EXPECT_EQ(throughFile({}, folder / "empty.json"), ViewState{});
 }
 
-TEST(ViewState, EveryShowHasAName)
+TEST(SceneNames, EveryChoiceHasOne)
 {
     for (const Show show :
          {Show::picture, Show::normals, Show::labels, Show::coverage, Show::thetaH, Show::thetaD, Show::verdicts}) {
-        ViewState state;
-        state.show = show;
-        EXPECT_EQ(viewStateOf(sceneFileOf(state)).show, show);
+        EXPECT_EQ(showFromName(nameOf(show)), show);
     }
+    for (const ResidualUse use : {ResidualUse::on, ResidualUse::off, ResidualUse::alone}) {
+        EXPECT_EQ(residualUseFromName(nameOf(use)), use);
+    }
+    for (const LightMotion motion : {LightMotion::none, LightMotion::turntable, LightMotion::sweep}) {
+        EXPECT_EQ(motionFromName(nameOf(motion)), motion);
+    }
+    for (const RenderPath path : {RenderPath::automatic, RenderPath::direct, RenderPath::ball}) {
+        EXPECT_EQ(pathFromName(nameOf(path)), path);
+    }
+    expectError([] { residualUseFromName("half"); }, {"layer half is not known", "on, off or alone"}, Error::kUsage);
 }
 
-TEST(ViewState, EveryUseOfTheResidualHasAName)
+TEST(ViewState, DefaultsAreNotWritten)
 {
-    for (const ResidualUse use : {ResidualUse::on, ResidualUse::off, ResidualUse::alone}) {
-        ViewState state;
-        state.residual = use;
-        EXPECT_EQ(viewStateOf(sceneFileOf(state)).residual, use);
-    }
-    EXPECT_EQ(sceneFileOf({}).residual, "") << "the default is not written";
-    SceneFile unknown;
-    unknown.residual = "half";
-    expectError([&] { viewStateOf(unknown); }, {"--layer half is not known", "on, off or alone"}, Error::kUsage);
+    EXPECT_EQ(textOf(ViewState{}, {}), "{\n  \"format\": \"nacre scene\",\n  \"version\": 1\n}\n");
 }
 
 TEST(ViewState, APhotographIsShownByItsLightAlone)
@@ -100,20 +102,9 @@ TEST(ViewState, PathsAreRelativeToTheFile)
 {
     const TempFolder folder;
     std::filesystem::create_directory(folder / "deep");
-    const std::string text = textOf(sceneFileOf(fullState(folder.path())), folder / "deep");
+    const std::string text = textOf(fullState(folder.path()), folder / "deep");
     EXPECT_NE(text.find("\"../a/horse.nacre\""), std::string::npos) << text;
     EXPECT_EQ(text.find(folder.path().string()), std::string::npos) << text;
-}
-
-TEST(ViewState, WhatIsSetAlreadyWins)
-{
-    const TempFolder folder;
-    writeText(folder / "s.json", R"({"format": "nacre scene", "version": 1, "light": ["0,0,1"], "exposure": 2})");
-    SceneFile scene;
-    scene.lights = {"captured:2"};
-    completeScene(scene, folder / "s.json");
-    EXPECT_EQ(scene.lights, std::vector<std::string>{"captured:2"});
-    EXPECT_EQ(scene.exposure, 2.0f);
 }
 
 TEST(ViewState, RefusesWhatItDoesNotKnow)
@@ -121,8 +112,7 @@ TEST(ViewState, RefusesWhatItDoesNotKnow)
     const TempFolder folder;
     const auto refused = [&](const std::string& keys, const std::vector<std::string>& fragments) {
         writeText(folder / "s.json", R"({"format": "nacre scene", "version": 1, )" + keys + "}");
-        SceneFile scene;
-        expectError([&] { completeScene(scene, folder / "s.json"); }, fragments);
+        expectError([&] { sceneFromFile(folder / "s.json"); }, fragments);
     };
     refused(R"("colour": 1)", {"s.json", "unknown key 'colour'"});
     refused(R"("window": {"colour": 1})", {"s.json", "unknown key 'colour'", "window"});
@@ -150,7 +140,7 @@ TEST(LightSource, RefusesWhatIsNoLight)
 {
     for (const char* text : {"", "1,2", "0,0,0", "0,0,-1", "1,2,3,-1,0,0", "captured:0", "soft:0:0,0,1",
                              "soft:91:0,0,1", "off:", "soft:5:off:0,0,1"}) {
-        expectError([&] { lightSourceFromText(text); }, {"--light"}, Error::kUsage);
+        expectError([&] { lightSourceFromText(text); }, {"light "}, Error::kUsage);
     }
     expectError([] { lightOf({.captured = 2}, {}); }, {"no captured light"}, Error::kUsage);
 }

@@ -1,4 +1,4 @@
-#include "engine/loading/size_argument.h"
+#include "engine/scene/picture_size.h"
 
 #include <charconv>
 
@@ -8,7 +8,7 @@
 
 namespace nacre {
 
-PictureSize sizeFromArgument(const std::string& option, const std::string& text)
+PictureSize sizeFromArgument(const std::string& name, const std::string& text)
 {
     PictureSize size;
     const char* end = text.data() + text.size();
@@ -19,7 +19,7 @@ PictureSize sizeFromArgument(const std::string& option, const std::string& text)
         understood = height.ec == std::errc() && height.ptr == end;
     }
     if (!understood || size.width < 1 || size.height < 1) {
-        throw Error("", fmt::format("{} {} is no size", option, text), "WIDTHxHEIGHT in pixels, e.g. 640x480",
+        throw Error("", fmt::format("{} {} is no size", name, text), "WIDTHxHEIGHT in pixels, e.g. 640x480",
                     Error::kUsage);
     }
     return size;

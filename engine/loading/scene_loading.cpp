@@ -1,0 +1,189 @@
+#include "engine/loading/scene_loading.h"
+
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
+
+#include "engine/files/error.h"
+#include "engine/gpu/texture.h"
+#include "engine/loading/rig_argument.h"
+#include "engine/materials/material_specification.h"
+#include "engine/scene/coverage.h"
+#include "engine/scene/scene_residual.h"
+#include "engine/target/height_from_normals.h"
+#include "engine/target/mesh_file.h"
+
+namespace nacre {
+
+namespace {
+
+constexpr int kMostEnvironmentLights = 100000;
+
+// The normals of `onto`, dressed in the material.
+Surface surfaceOnto(const SceneDescription& scene, const Material& material)
+{
+    const std::filesystem::path& onto = scene.onto;
+    if (onto.string().rfind("make:", 0) == 0 || isMeshFile(onto)) {
+        throw Error(onto, "is no normal map yet",
+                    fmt::format("T.nacre of nacre target {} -o T.nacre, or nacre transfer", onto.string()),
+                    Error::kUsage);
+    }
+    if (!std::filesystem::exists(onto)) {
+        throw Error(onto, "does not exist", "a NAME.nacre or a picture of normals");
+    }
+    return std::filesystem::is_directory(onto)
+               ? transferredSurface(loadSurface(onto), material)
+               : transferredSurface(loadNormalMap(onto, scene.normalY.value_or(NormalY::gl)), material);
+}
+
+// The surface as measured; a named material as a surface without pixels.
+Surface loadMeasured(const SceneDescription& scene, const std::filesystem::path& fits)
+{
+    if (scene.material.empty()) {
+        return loadSurface(scene.surface);
+    }
+    Surface surface;
+    surface.materials.push_back(loadMaterial(scene.material, fitsFolderFrom(fits)));
+    return surface;
+}
+
+// The measured one, or its first material on other normals; fitted into the size where given.
+Surface drawnSurfaceOf(const SceneDescription& scene, Surface measured, const Context& context)
+{
+    std::vector<CapturedLight> captured = measured.lights;
+    if (!scene.onto.empty()) {
+        if (measured.materials.empty()) {
+            throw Error(scene.surface, "holds no material", "one to put onto other normals");
+        }
+        measured = surfaceOnto(scene, measured.materials.front());
+    } else if (measured.materials.empty()) {
+        throw Error(scene.surface, "is a target without a material",
+                    "a material to put onto it, or another surface's onto it");
+    }
+    if (scene.shadows.value_or(false)) { // before pixels are repeated, which would make stairs of the height
+        castShadows(measured, scene.onto.empty() ? scene.surface : scene.onto);
+    }
+    if (scene.size) {
+        requirePictureSize(context, scene.size->width, scene.size->height); // before memory for it is asked for
+        measured = fittedSurface(measured, scene.size->width, scene.size->height);
+    }
+    measured.lights = std::move(captured);
+    return measured;
+}
+
+// The layer is of the captured surface from the front, and knows the lights about the captured ones.
+void noteResidual(const Scene& scene, bool wasMeasured)
+{
+    if (!wasMeasured) {
+        return;
+    }
+    if (!hasResidualFrom(scene.surface, scene.view)) {
+        fmt::print(stderr, "nacre: note: the residual layer is left out: it belongs to the surface's {}\n",
+                   scene.surface.residual.empty() ? "own shape" : "view from the front");
+        return;
+    }
+    const size_t beyond = lightsBeyondResidual(scene.surface.residual, scene.lights);
+    if (beyond > 0) {
+        fmt::print(stderr,
+                   "nacre: note: the residual layer fades out under {} of {} light{}, away from the captured ones\n",
+                   beyond, scene.lights.size(), scene.lights.size() == 1 ? "" : "s");
+    }
+}
+
+std::string percentage(double share)
+{
+    return share < 0.001 ? "below 0.1 %" : fmt::format("{:.1f} %", 100 * share);
+}
+
+} // namespace
+
+void requireConsistent(const SceneDescription& scene)
+{
+    if (scene.surface.empty() == scene.material.empty()) {
+        throw Error("", "one thing to render is needed", "either a surface or a material", Error::kUsage);
+    }
+    if (!scene.material.empty() && scene.onto.empty()) {
+        throw Error("", "a material has no shape of its own", "normals or a NAME.nacre to put it onto", Error::kUsage);
+    }
+    const int count = scene.environmentLights.value_or(kEnvironmentLights);
+    if (count < 1 || count > kMostEnvironmentLights) {
+        throw Error("", fmt::format("{} environment-lights are out of range", count),
+                    fmt::format("1 to {}", kMostEnvironmentLights), Error::kUsage);
+    }
+    if (scene.normalY && scene.onto.empty()) {
+        throw Error("", "normal-y has nothing to turn", "other normals to put the material onto", Error::kUsage);
+    }
+}
+
+void castShadows(Surface& surface, const std::filesystem::path& source)
+{
+    if (surface.height.values.empty()) {
+        if (!std::filesystem::is_directory(source)) {
+            throw Error(source, "has no height that could cast shadows",
+                        "a NAME.nacre, which nacre target makes of normals, or no shadows", Error::kUsage);
+        }
+        IntegratedHeight integrated = heightFromNormals(surface.normals);
+        surface.height = std::move(integrated.height);
+        fmt::print(stderr, "nacre: note: {} has no height: shadows are cast by one integrated from its normals{}\n",
+                   source.string(),
+                   integrated.pieces > 1
+                       ? fmt::format(", in {} pieces whose heights against each other are not known", integrated.pieces)
+                       : "");
+    }
+    surface.horizon = horizonMap(surface.normals, surface.height);
+}
+
+Surface loadDrawnSurface(const SceneDescription& scene, const std::filesystem::path& fits, const Context& context)
+{
+    return drawnSurfaceOf(scene, loadMeasured(scene, fits), context);
+}
+
+std::vector<Light> lightsOfScene(const SceneDescription& scene, const Environment* environment,
+                                 std::span<const CapturedLight> captured)
+{
+    std::vector<Light> lights = lightsOf(scene.lights, captured);
+    const auto append = [&](const std::vector<Light>& more) { lights.insert(lights.end(), more.begin(), more.end()); };
+    if (!scene.rig.empty()) {
+        append(rigFromArgument(scene.rig).lights);
+    }
+    if (environment != nullptr) {
+        append(lightsFromEnvironment(*environment, scene.environmentLights.value_or(kEnvironmentLights),
+                                     glm::radians(scene.environmentTurn)));
+    }
+    return lights;
+}
+
+Scene loadScene(const SceneDescription& description, const std::filesystem::path& fits, const Context& context,
+                bool quiet)
+{
+    Scene scene;
+    scene.view = viewDirectionOf(description);
+    Surface measured = loadMeasured(description, fits);
+    const bool hasResidual = !measured.residual.empty();
+    scene.surface = drawnSurfaceOf(description, std::move(measured), context);
+    requireResidual(scene.surface, scene.view, description.residual);
+    SceneDescription lit = description;
+    resolveCaptured(lit, scene.surface.lights);
+    std::optional<Environment> environment;
+    if (!lit.environment.empty()) {
+        environment = loadEnvironment(lit.environment);
+    }
+    scene.lights = lightsOfScene(lit, environment ? &*environment : nullptr, scene.surface.lights);
+    if (!quiet && description.residual != ResidualUse::off) {
+        noteResidual(scene, hasResidual);
+    }
+    return scene;
+}
+
+void noteUnmeasured(const Scene& scene)
+{
+    const UnmeasuredShare share = unmeasuredShare(scene);
+    if (share.pixels > 0) {
+        fmt::print(stderr,
+                   "nacre: note: {} of the lit pixels ({} of their light by n.l) ask for directions that were not "
+                   "measured: the nearest that were answer, the picture of the coverage hatches them\n",
+                   percentage(share.pixels), percentage(share.light));
+    }
+}
+
+} // namespace nacre

@@ -1,0 +1,32 @@
+#pragma once
+#include "engine/gpu/context.h"
+#include "engine/lights/environment.h"
+#include "engine/scene/scene.h"
+#include "engine/scene/scene_description.h"
+
+namespace nacre {
+
+// Throws Error (usage) where parts of the description contradict each other; before anything is read.
+void requireConsistent(const SceneDescription& scene);
+
+// Bakes the horizon of the height of a surface that was read from `source`. A captured surface has none: its normals
+// are integrated, and stderr says so. Throws Error (usage) for a bare normal map.
+void castShadows(Surface& surface, const std::filesystem::path& source);
+
+// The surface, or its material or the named one on other normals, fitted into the size; with the captured lights of the
+// measured one. `fits`: the folder of fitted models, or empty (fitsFolderFrom).
+Surface loadDrawnSurface(const SceneDescription& scene, const std::filesystem::path& fits, const Context& context);
+
+// All directional lights: those named, the rig's, the environment's (null: there is none, or it is not read yet).
+std::vector<Light> lightsOfScene(const SceneDescription& scene, const Environment* environment,
+                                 std::span<const CapturedLight> captured);
+
+// The surface with the lights, the default one where there is none, and the view. Throws Error (usage) where the
+// residual layer by itself is asked for and there is none; says on stderr, unless quiet, where it is left out or fades
+// out.
+Scene loadScene(const SceneDescription& scene, const std::filesystem::path& fits, const Context& context, bool quiet);
+
+// Where a table was not measured it answers with what is nearest: said on stderr, not refused.
+void noteUnmeasured(const Scene& scene);
+
+} // namespace nacre
