@@ -1,5 +1,5 @@
 #!/bin/sh
-# Remakes the tables of docs/limitations.md and its charts: scripts/stability_figures.sh NACRE DILIGENT WORK
+# Measures the tables of docs/limitations.md and draws its chart: scripts/stability_figures.sh NACRE DILIGENT WORK
 # NACRE: the program; DILIGENT: the folder with ballPNG and bearPNG; WORK: a new folder for results, by capture.
 set -eu
 nacre=$1
@@ -13,5 +13,3 @@ for object in ball bear; do
     --methods least-squares,threshold,two-step,ransac,consensus
 done
 cp "$work/synthetic/direction-normals.svg" "$charts/stress-synthetic-direction.svg"
-cp "$work/synthetic/encoded-brdf.svg" "$charts/stress-synthetic-encoded-brdf.svg"
-cp "$work/ball/decoded-normals.svg" "$charts/stress-ball-decoded.svg"

@@ -13,7 +13,7 @@ void ResidualArguments::addTo(CLI::App& command)
         .add_option("--residual", choice,
                     "Residual layer, for what the BRDF cannot explain on this object: auto keeps it where it predicts "
                     "held-out photographs better, difference always")
-        ->option_text("auto|difference|none")
+        ->option_text("auto|difference|none [" + choice + "]")
         ->capture_default_str();
 }
 
