@@ -1,4 +1,4 @@
-#include "evaluation/charts/pareto_front.h"
+#include "evaluation/charts/chart.h"
 
 #include <cmath>
 #include <cstdint>
@@ -7,6 +7,20 @@
 
 namespace nacre {
 namespace {
+
+struct Cost {
+    double x, y;
+};
+
+// Of errors; 1 is added, as a logarithmic axis shows nothing at 0.
+std::vector<char> paretoFront(const std::vector<Cost>& costs)
+{
+    Chart chart;
+    for (const Cost& cost : costs) {
+        chart.points.push_back({"", "", 1 + cost.x, 1 + cost.y});
+    }
+    return frontOf(chart);
+}
 
 // Small whole numbers, so that ties in one and in both are frequent.
 std::vector<Cost> drawnCosts(uint32_t seed, size_t count)
