@@ -215,9 +215,9 @@ TEST(SurfaceFiles, DamageIsNamed)
     expectError([&] { loadSurface(folder / "none.nacre"); }, {"none.nacre: is not a surface"});
     saveSurface(folder / "s.nacre", transferredSurface(sphereNormalMap(16), {"m", smallTable(), {}}), false);
     writeText(folder / "s.nacre" / "surface.json", "{\"format\": \"nacre surface\", \"version\": 99}");
-    expectError([&] { loadSurface(folder / "s.nacre"); }, {"has version 99", "version 1"});
+    expectError([&] { loadSurface(folder / "s.nacre"); }, {"surface.json: version is 99", "at most 1"});
     writeText(folder / "s.nacre" / "surface.json", "{");
-    expectError([&] { loadSurface(folder / "s.nacre"); }, {"surface.json: is not understood"});
+    expectError([&] { loadSurface(folder / "s.nacre"); }, {"surface.json: is not JSON"});
 }
 
 TEST(NormalMaps, CodedAndFloatFilesRoundTripAndGreenFlips)

@@ -117,7 +117,7 @@ TEST(TargetSurface, DamagedHeightsAndLabelsAreRefused)
     saveImage(folder / "t.nacre/height.exr", height, PixelType::float32);
     expectError([&] { loadSurface(folder / "t.nacre"); }, {"height.exr", "no number"});
     saveImage(folder / "t.nacre/height.exr", Image(3, 3, 1), PixelType::float32);
-    expectError([&] { loadSurface(folder / "t.nacre"); }, {"height.exr", "another shape"});
+    expectError([&] { loadSurface(folder / "t.nacre"); }, {"height.exr", "is 3x3"});
     surface.labels[3] = 1;
     saveSurface(folder / "u.nacre", surface, false);
     expectError([&] { loadSurface(folder / "u.nacre"); }, {"labels.png", "names part 1", "below 1"});
