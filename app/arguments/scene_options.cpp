@@ -17,9 +17,9 @@ std::vector<LightSource> lightSourcesFrom(const std::vector<std::string>& texts)
 
 void SceneOptions::addTo(CLI::App& command, const Help& help)
 {
-    using Scene = SceneDescription;
-    add<std::string>(command, "SURFACE", &Scene::surface, "Folder NAME.nacre of nacre acquire; or --material");
-    add<std::string>(command, "--material", &Scene::material, help.material);
+    using Description = SceneDescription;
+    add<std::string>(command, "SURFACE", &Description::surface, "Folder NAME.nacre of nacre acquire; or --material");
+    add<std::string>(command, "--material", &Description::material, help.material);
     command
         .add_option("--fits", fits, "Folder of merl_abc_params.csv and merl_sgd_params.csv (default: $NACRE_FITS_DIR)")
         ->group("Materials and shapes");
@@ -27,21 +27,21 @@ void SceneOptions::addTo(CLI::App& command, const Help& help)
         .add_option_function<std::vector<std::string>>(
             "--light",
             [this](const std::vector<std::string>& texts) {
-                given_.push_back([texts](Scene& scene) { scene.lights = lightSourcesFrom(texts); });
+                given_.push_back([texts](Description& scene) { scene.lights = lightSourcesFrom(texts); });
             },
             help.light)
         ->allow_extra_args(false);
-    add<std::string>(command, "--onto", &Scene::onto, help.onto);
-    addParsed(command, "--normal-y", &Scene::normalY, normalYFromName,
+    add<std::string>(command, "--onto", &Description::onto, help.onto);
+    addParsed(command, "--normal-y", &Description::normalY, normalYFromName,
               "Green of the normals of --onto: gl (up) or dx (down) [gl]")
         ->group("Materials and shapes");
     addParsed(
-        command, "--size", &Scene::size, [](const std::string& text) { return sizeFromArgument("--size", text); },
+        command, "--size", &Description::size, [](const std::string& text) { return sizeFromArgument("--size", text); },
         "Size in pixels that the surface is fitted into, WxH (default: its own)");
-    add<float>(command, "--exposure", &Scene::exposure, help.exposure);
-    add<std::string>(command, "--environment", &Scene::environment, help.environment);
-    addParsed(command, "--show", &Scene::show, showFromName, help.show);
-    addParsed(command, "--layer", &Scene::residual, residualUseFromName, help.layer);
+    add<float>(command, "--exposure", &Description::exposure, help.exposure);
+    add<std::string>(command, "--environment", &Description::environment, help.environment);
+    addParsed(command, "--show", &Description::show, showFromName, help.show);
+    addParsed(command, "--layer", &Description::residual, residualUseFromName, help.layer);
     command.add_option("--state", state_, help.state);
     command
         .add_option("--device", device, "Vulkan device: number or part of its name in nacre info (default: the first)")

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "app/commands/commands.h"
+#include "app/materials/render_output.h"
 #include "app/materials/transfer_pictures.h"
 #include "engine/files/error.h"
 #include "engine/files/stopwatch.h"
@@ -14,8 +15,6 @@
 namespace nacre {
 
 namespace {
-
-constexpr int kMostFrames = 10000;
 
 RenderOutput outputOf(const TransferArguments& arguments)
 {

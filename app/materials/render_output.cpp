@@ -15,7 +15,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr int kMostFrames = 10000;
 constexpr const char* kAnimation = ".webp";
 constexpr int kExposureFrames = 8; // of a sequence, to find one exposure for all
 

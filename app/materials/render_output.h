@@ -4,6 +4,8 @@
 
 namespace nacre {
 
+constexpr int kMostFrames = 10000; // of a sequence
+
 // What is written, from the file's extension and the frames: .exr holds linear radiance, .png is exposed for the
 // eye, and so is .webp. Several frames make numbered pictures (NAME_0001.png), or one .webp that moves.
 struct RenderOutput {

@@ -2,7 +2,7 @@
 #include <optional>
 #include <string>
 
-#include "engine/viewer/controls.h"
+#include "engine/view_state/controls.h"
 #include "engine/viewer/view_pictures.h"
 
 namespace nacre {

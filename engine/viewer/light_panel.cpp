@@ -4,7 +4,7 @@
 #include <glm/geometric.hpp>
 #include <imgui.h>
 
-#include "engine/viewer/light_ball.h"
+#include "engine/view_state/light_ball.h"
 #include "engine/viewer/panels.h"
 
 namespace nacre {

@@ -5,7 +5,7 @@
 
 #include <glm/vec2.hpp>
 
-#include "engine/viewer/verdict_picture.h"
+#include "engine/view_state/verdict_picture.h"
 
 namespace nacre {
 

@@ -2,7 +2,7 @@
 #include <span>
 
 #include "engine/gpu/texture.h"
-#include "engine/viewer/picture_blit.h"
+#include "engine/view_state/picture_blit.h"
 
 namespace nacre {
 

@@ -6,7 +6,7 @@
 #include "engine/lights/environment.h"
 #include "engine/scene/ball_size.h"
 #include "engine/surface/surface.h"
-#include "engine/viewer/choices.h"
+#include "engine/view_state/choices.h"
 #include "engine/viewer/photographs.h"
 
 namespace nacre {

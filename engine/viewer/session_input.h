@@ -1,6 +1,6 @@
 #pragma once
-#include "engine/viewer/controls.h"
-#include "engine/viewer/dropped_file.h"
+#include "engine/view_state/controls.h"
+#include "engine/view_state/dropped_file.h"
 #include "engine/viewer/window.h"
 
 namespace nacre {

@@ -7,7 +7,7 @@
 #include <glm/vec2.hpp>
 #include <vulkan/vulkan.h>
 
-#include "engine/viewer/key_table.h"
+#include "engine/view_state/key_table.h"
 
 struct GLFWwindow;
 

@@ -56,7 +56,7 @@ TEST(HeightConsistency, YUpsideDownIsSaid)
 {
     const NormalMap map = changed(hills(), glm::mat3(1, 0, 0, 0, -1, 0, 0, 0, 1));
     ASSERT_EQ(heightWarnings(map).size(), 1u);
-    EXPECT_NE(heightWarnings(map).front().find("y points downwards"), std::string::npos);
+    EXPECT_EQ(heightWarnings(map).front().code, FindingCode::yFlipped);
 }
 
 TEST(HeightConsistency, ATurnOfAllNormalsIsFoundAndSaid)
@@ -64,8 +64,9 @@ TEST(HeightConsistency, ATurnOfAllNormalsIsFoundAndSaid)
     const NormalMap map = changed(hills(), turnAboutX(8));
     EXPECT_NEAR(glm::length(heightConsistencyOf(map).turnDegrees), 8, 1);
     ASSERT_EQ(heightWarnings(map).size(), 1u);
-    EXPECT_NE(heightWarnings(map).front().find("turned by 8 degrees"), std::string::npos)
-        << heightWarnings(map).front();
+    EXPECT_EQ(heightWarnings(map).front().code, FindingCode::lightsTurned);
+    EXPECT_NE(heightWarnings(map).front().text.find("turned by 8 degrees"), std::string::npos)
+        << heightWarnings(map).front().text;
 }
 
 TEST(HeightConsistency, FewPixelsSayNothing)

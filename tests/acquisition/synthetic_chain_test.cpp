@@ -13,7 +13,7 @@
 namespace nacre {
 namespace {
 
-const Progress kSilent = [](const std::string&, double) {};
+const Progress kNoProgress = [](const std::string&, double) {};
 
 Capture writeAndLoad(const TempFolder& folder, const SynthOptions& options)
 {
@@ -101,7 +101,7 @@ TEST(SyntheticChain, ADiffuseSphereOfKnownReflectanceMakesTheScaleAbsolute)
     options.normals.method = NormalMethod::threshold;
     options.normals.lowThreshold = 1e-3f;
     options.normals.highThreshold = 1e6f;
-    const Acquisition result = acquire(capture, options, kSilent);
+    const Acquisition result = acquire(capture, options, kNoProgress);
     EXPECT_EQ(result.surface.scale, RadianceScale::absolute);
     const glm::vec3 n(0, 0, 1), l = glm::normalize(glm::vec3(0.3f, 0.2f, 0.9f));
     const glm::vec3 f = evaluateTable(result.surface.materials.front().table, n, l, n).value;
@@ -116,7 +116,7 @@ TEST(SyntheticChain, RenderingWithACapturedLightGivesThePhotographBack)
     SynthOptions synth = exactSphere();
     synth.format = SynthFormat::png16;
     const Capture capture = writeAndLoad(folder, synth);
-    const Acquisition result = acquire(capture, {}, kSilent);
+    const Acquisition result = acquire(capture, {}, kNoProgress);
     Scene scene{result.surface, {result.surface.lights[7].light}};
     const Image photograph = loadPhotograph(capture.photographs[7].exposures.front().file, capture.curve);
     std::vector<float> values = photograph.values;
@@ -139,7 +139,7 @@ TEST(SyntheticChainSlow, SameBytesForOneAndTwoThreadsAndAnyBudget)
     two.setThreads(2);
     one.bake.size = two.bake.size = {24, 8, 8};
     two.byteBudget = 64 << 10; // many blocks
-    const Acquisition a = acquire(capture, one, kSilent), b = acquire(capture, two, kSilent);
+    const Acquisition a = acquire(capture, one, kNoProgress), b = acquire(capture, two, kNoProgress);
     EXPECT_EQ(a.surface.normals.normals, b.surface.normals.normals);
     EXPECT_EQ(a.surface.materials[0].table.values, b.surface.materials[0].table.values);
     EXPECT_EQ(a.surface.materials[0].table.confidence, b.surface.materials[0].table.confidence);

@@ -21,12 +21,18 @@ TEST(ChartCommand, WritesTablesPicturesAndOneReport)
 {
     const TempFolder folder;
     const std::string output = (folder / "charts").string();
-    std::vector<std::string> arguments = {"chart",     makeSmallCapture(folder),
-                                          "-o",        output,
-                                          "--methods", "least-squares,consensus",
-                                          "--lights-given",  "all,6",
-                                          "--k",       "25",
-                                          "--parts",   "normals,brdf"};
+    std::vector<std::string> arguments = {"chart",
+                                          makeSmallCapture(folder),
+                                          "-o",
+                                          output,
+                                          "--methods",
+                                          "least-squares,consensus",
+                                          "--lights-given",
+                                          "all,6",
+                                          "--k",
+                                          "25",
+                                          "--parts",
+                                          "normals,brdf"};
     const ProgramRun run = runNacre(arguments);
     ASSERT_EQ(run.exitCode, 0) << run.err;
     EXPECT_NE(run.err.find("settings left"), std::string::npos) << run.err;

@@ -1,4 +1,4 @@
-#include "engine/viewer/controls.h"
+#include "engine/view_state/controls.h"
 
 #include <functional>
 #include <set>

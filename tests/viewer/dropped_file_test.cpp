@@ -1,4 +1,4 @@
-#include "engine/viewer/dropped_file.h"
+#include "engine/view_state/dropped_file.h"
 
 #include <gtest/gtest.h>
 

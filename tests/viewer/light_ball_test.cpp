@@ -1,4 +1,4 @@
-#include "engine/viewer/light_ball.h"
+#include "engine/view_state/light_ball.h"
 
 #include <cmath>
 

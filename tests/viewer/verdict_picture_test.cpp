@@ -1,4 +1,4 @@
-#include "engine/viewer/verdict_picture.h"
+#include "engine/view_state/verdict_picture.h"
 
 #include <gtest/gtest.h>
 

@@ -4,7 +4,7 @@
 
 #include "engine/files/whole_file.h"
 #include "engine/scene/scene_names.h"
-#include "engine/viewer/choices.h"
+#include "engine/view_state/choices.h"
 #include "tests/support/expect_error.h"
 #include "tests/support/temp_folder.h"
 

@@ -1,4 +1,4 @@
-#include "engine/viewer/framing.h"
+#include "engine/view_state/framing.h"
 
 #include <algorithm>
 #include <cmath>

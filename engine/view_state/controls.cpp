@@ -1,9 +1,9 @@
-#include "engine/viewer/controls.h"
+#include "engine/view_state/controls.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "engine/viewer/light_ball.h"
+#include "engine/view_state/light_ball.h"
 
 namespace nacre {
 

@@ -1,4 +1,4 @@
-#include "engine/viewer/picture_blit.h"
+#include "engine/view_state/picture_blit.h"
 
 #include <algorithm>
 #include <cmath>

@@ -3,7 +3,7 @@
 
 #include <glm/vec2.hpp>
 
-#include "engine/viewer/framing.h"
+#include "engine/view_state/framing.h"
 
 namespace nacre {
 

@@ -1,4 +1,4 @@
-#include "engine/viewer/key_table.h"
+#include "engine/view_state/key_table.h"
 
 #include <array>
 

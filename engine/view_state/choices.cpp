@@ -1,4 +1,4 @@
-#include "engine/viewer/choices.h"
+#include "engine/view_state/choices.h"
 
 #include <algorithm>
 

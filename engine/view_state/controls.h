@@ -1,7 +1,7 @@
 #pragma once
-#include "engine/viewer/choices.h"
-#include "engine/viewer/framing.h"
-#include "engine/viewer/key_table.h"
+#include "engine/view_state/choices.h"
+#include "engine/view_state/framing.h"
+#include "engine/view_state/key_table.h"
 
 namespace nacre {
 
