@@ -5,12 +5,15 @@ set -euo pipefail
 cd "$(dirname "$0")/.."
 most=60 # 6 s of processor time each
 since=${1:-$(git merge-base HEAD main 2>/dev/null || true)}
-[ "$since" != "$(git rev-parse HEAD)" ] || since=HEAD~1
+[ "$since" != "$(git rev-parse HEAD)" ] || since=
+if [ -z "$since" ]; then
+    since=$(git rev-parse --quiet --verify HEAD~1) || { echo "clang-tidy: no earlier commit to compare with" >&2; exit 0; }
+fi
 if [ "$since" = --all ]; then
     most=100000
     changed=$(git ls-files '*.cpp')
 else
-    changed=$(git diff --name-only --diff-filter=d "${since:-HEAD~1}" -- '*.cpp' '*.h' | sed 's/\.h$/.cpp/' | sort -u)
+    changed=$(git diff --name-only --diff-filter=d "$since" -- '*.cpp' '*.h' | sed 's/\.h$/.cpp/' | sort -u)
 fi
 sources=$(for source in $changed; do [ ! -f "$source" ] || echo "$source"; done)
 [ -n "$sources" ] || exit 0

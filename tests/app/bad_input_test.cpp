@@ -313,7 +313,7 @@ TEST_F(BadInputTest, UsageErrorsAreOneLineThatNamesTheHelp)
         {{"render", "s.nacre", "-o", "x.png", "--bogus"}, {"--bogus", "nacre render --help"}},
         {{"render", "s.nacre", "-o", "x.png", "--exposure", "abc"}, {"--exposure = abc", "nacre render --help"}},
         {{"render", "s.nacre", "-o", "x.png", "--light"}, {"--light", "nacre render --help"}},
-        {{"render", "s.nacre", "-o", "x.png", "--normal-y", "dx"}, {"--normal-y", "--onto with it"}},
+        {{"render", "s.nacre", "-o", "x.png", "--normal-y", "dx"}, {"normal-y", "put the material onto"}},
         {{"render", "s.nacre", "-o", "x.jpg"}, {"x.jpg", ".png"}},
         {{"acquire", "c", "-o", "x.nacre", "--threads", "many"}, {"--threads = many", "nacre acquire --help"}},
         {{"acquire", "c", "-o", "x.nacre", "--threads=-1"}, {"--threads -1", "1 or more"}},

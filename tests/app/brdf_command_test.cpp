@@ -147,8 +147,8 @@ TEST_F(BrdfCommandTest, RefusesByName)
     expectRefused({"brdf", kGlossy, "--against", path("short.binary")}, 3, {"short.binary"});
     saveImage(folder_ / "picture.exr", Image(4, 4, 3), PixelType::float32);
     expectRefused({"brdf", path("picture.exr")}, 3, {"picture.exr", "no BRDF table"});
-    expectRefused({"render", "-o", path("r.png")}, 2, {"SURFACE or --material"});
-    expectRefused({"render", "--material", kGlossy, "-o", path("r.png")}, 2, {"--onto"});
+    expectRefused({"render", "-o", path("r.png")}, 2, {"either a surface or a material"});
+    expectRefused({"render", "--material", kGlossy, "-o", path("r.png")}, 2, {"no shape of its own"});
     expectRefused({"synth", path("c"), "--material", path("short.binary")}, 3, {"short.binary"});
     for (const char* name : {"b.exr", "b.dds", "r.png", "c"}) {
         EXPECT_FALSE(fs::exists(folder_ / name)) << name;

@@ -178,7 +178,7 @@ TEST(ChartCsv, HasALineASettingWithEveryField)
     }
     EXPECT_NE(csvOf(rows.normals).find("\"a, \"\"b\"\" <c>\",consensus,12,1.0000,2.0000,"), std::string::npos);
     EXPECT_NE(csvOf(rows.normals).find(",ransac,12,,,,,,,no,no,\"too few, alas\"\n"), std::string::npos);
-    EXPECT_NE(csvOf(rows.brdf).find("ball,local-linear,25,9,8,7,RGBA32F,8064,2.5000,32.5000,yes,no,no\n"),
+    EXPECT_NE(csvOf(rows.brdf).find("ball,local-linear,25,9,8,7,RGBA32F,8064,2.5000,32.5000,yes,no,yes\n"),
               std::string::npos);
 }
 
