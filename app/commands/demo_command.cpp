@@ -4,6 +4,7 @@
 #include <glm/geometric.hpp>
 
 #include "acquisition/chain/acquire.h"
+#include "app/arguments/residual_arguments.h"
 #include "app/commands/commands.h"
 #include "app/report/acquisition_summary.h"
 #include "app/report/contact_sheet.h"
@@ -152,6 +153,7 @@ void runDemo(const DemoArguments& arguments)
     const Capture capture = demoPhotographs(arguments, output.temporary());
     AcquireOptions options;
     options.setThreads(arguments.threads);
+    options.residual = ResidualArguments{}.options(options.ladder);
     const Acquisition result = acquire(capture, options, progressLine(arguments.quiet));
     endProgressLine(arguments.quiet);
     saveSurface(output.temporary() / "demo.nacre", result.surface, false);
