@@ -55,7 +55,7 @@ TableRange tableRangeFromName(const std::string& name)
     if (name == "front" || name == "full") {
         return name == "front" ? TableRange::front : TableRange::full;
     }
-    throw Error("", "--range " + name + " is unknown", "captured, front or full", Error::kUsage);
+    throw Error("", "table range " + name + " is unknown", "captured, front or full", Error::kUsage);
 }
 
 TableDomain tableDomain(const std::vector<Light>& lights, const BakeOptions& options)

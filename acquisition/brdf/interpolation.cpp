@@ -16,7 +16,7 @@ InterpolationMethod interpolationMethodFromName(const std::string& name)
             return method;
         }
     }
-    throw Error("", "--interpolation " + name + " is unknown", "local-linear or paper", Error::kUsage);
+    throw Error("", "interpolation " + name + " is unknown", "local-linear or paper", Error::kUsage);
 }
 
 std::string nameOf(InterpolationMethod method)
@@ -27,7 +27,7 @@ std::string nameOf(InterpolationMethod method)
 BrdfInterpolant makeInterpolant(const BrdfSamples& samples, const InterpolationOptions& options)
 {
     if (options.k < 1 || options.k > kMostNeighbours) {
-        throw Error("", "--k " + std::to_string(options.k) + " is out of range",
+        throw Error("", std::to_string(options.k) + " nearest samples are out of range",
                     "1 to " + std::to_string(kMostNeighbours), Error::kUsage);
     }
     if (options.method == InterpolationMethod::paper) {

@@ -61,11 +61,11 @@ void applyOptions(LayoutContents& contents, const CaptureOptions& options)
         contents.offset = options.offset;
     }
     if (!options.mirrorSphere.empty()) {
-        contents.capture.mirrorSphere = namedSphere("--mirror-sphere", options.mirrorSphere, contents);
+        contents.capture.mirrorSphere = namedSphere("mirror sphere", options.mirrorSphere, contents);
         replaceDirections(contents.capture);
     }
     if (!options.diffuseSphere.empty()) {
-        contents.capture.diffuseSphere = namedSphere("--diffuse-sphere", options.diffuseSphere, contents);
+        contents.capture.diffuseSphere = namedSphere("diffuse sphere", options.diffuseSphere, contents);
     }
     if (!options.mask.empty()) {
         contents.masks = {options.mask};
@@ -75,7 +75,7 @@ void applyOptions(LayoutContents& contents, const CaptureOptions& options)
     }
     if (contents.masks.size() > 1) {
         throw Error(contents.masks[1], fmt::format("is a mask beside {}", contents.masks[0].filename().string()),
-                    "one, or --mask to choose");
+                    "one, or the choice of a mask");
     }
 }
 

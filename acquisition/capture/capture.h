@@ -86,7 +86,7 @@ struct Capture {
     std::optional<SpherePhotographs> mirrorSphere;
     std::optional<SpherePhotographs> diffuseSphere;
     TransferCurve curve = TransferCurve::linear;
-    std::string curveSource;            // e.g. "assumed", "sRGB chunk of 001.png", "--transfer"
+    std::string curveSource;            // e.g. "assumed", "declared by 001.png", "chosen"
     float offset = 0;                   // subtracted from every value, spheres' too, before anything else is done to it
     std::string offsetSource;           // empty where none was asked for
     std::optional<Photograph> ambient;  // without the lights; subtracted from every photograph of the object

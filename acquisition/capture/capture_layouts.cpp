@@ -280,7 +280,7 @@ std::optional<LayoutContents> readRtiLayout(const fs::path& folder, const fs::pa
         throw Error(folder,
                     fmt::format("holds {} .lp files, {} and {} among them", files.size(), files[0].filename().string(),
                                 files[1].filename().string()),
-                    "one, or --rig to choose");
+                    "one, or the choice of a rig");
     }
     return readLp(chosen ? rig : files[0], folder, picturesBelow(folder));
 }

@@ -49,9 +49,9 @@ void skipAndAssignRig(LayoutContents& contents, const std::vector<std::string>& 
                       const std::filesystem::path& rigFile);
 
 // in-picture:X,Y,W,H[,MASK], a sphere in the object's own photographs, or a folder of photographs and a mask. A
-// sphere's mask beside the photographs is not the object's. Throws Error (usage), naming the option, where it is
+// sphere's mask beside the photographs is not the object's. Throws Error (usage) by the sphere's `name` where it is
 // neither.
-SpherePhotographs namedSphere(const std::string& option, const std::filesystem::path& specification,
+SpherePhotographs namedSphere(const std::string& name, const std::filesystem::path& specification,
                               LayoutContents& contents);
 
 // The checks that need picture headers alone: sizes, one transfer curve, EXIF exposure times. Fills size and curve.

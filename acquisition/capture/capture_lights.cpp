@@ -36,7 +36,7 @@ void markSkipped(std::vector<Photograph>& photographs, const std::vector<std::st
             }
         }
         if (found != 1) {
-            throw Error("", fmt::format("--skip {} names {} photographs", name, found),
+            throw Error("", fmt::format("{} names {} photographs to leave out", name, found),
                         fmt::format("one, such as {}", photographs[0].name), Error::kUsage);
         }
     }
@@ -62,7 +62,7 @@ std::string comparedName(std::string name)
     return lowerCase(fs::path(name).stem().string());
 }
 
-std::optional<SphereInPicture> sphereInPicture(const std::string& option, const fs::path& specification)
+std::optional<SphereInPicture> sphereInPicture(const std::string& name, const fs::path& specification)
 {
     const std::string& text = specification.native();
     if (!text.starts_with(kPrefix)) {
@@ -87,7 +87,7 @@ std::optional<SphereInPicture> sphereInPicture(const std::string& option, const 
         understood = !sphere.mask.empty();
     }
     if (!understood || at != end) {
-        throw Error("", fmt::format("{} {} is not understood", option, text),
+        throw Error("", fmt::format("{} {} is not understood", name, text),
                     "in-picture:X,Y,W,H in whole pixels of the photographs, and a mask after a comma if you like",
                     Error::kUsage);
     }
@@ -204,9 +204,9 @@ std::string rectangleOf(const SphereInPicture& sphere)
     return fmt::format("{},{},{},{}", sphere.x, sphere.y, sphere.width, sphere.height);
 }
 
-SpherePhotographs namedSphere(const std::string& option, const fs::path& specification, LayoutContents& contents)
+SpherePhotographs namedSphere(const std::string& name, const fs::path& specification, LayoutContents& contents)
 {
-    const std::optional<SphereInPicture> sphere = sphereInPicture(option, specification);
+    const std::optional<SphereInPicture> sphere = sphereInPicture(name, specification);
     if (!sphere) {
         return readSphereFolder(specification);
     }

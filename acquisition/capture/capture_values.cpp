@@ -66,7 +66,7 @@ void takeDeclaredCurve(Capture& capture, std::span<const ReadHeader> headers)
         if (header.declaredCurve != first.declaredCurve) {
             throw Error(exposure->file,
                         fmt::format("{}, while {} {}", describeCurve(header), firstName, describeCurve(first)),
-                        "one curve for all photographs; --transfer settles it");
+                        "one curve for all photographs, declared or chosen");
         }
     }
     capture.curve = first.declaredCurve;
@@ -126,7 +126,7 @@ void examineHeaders(LayoutContents& contents, const std::optional<TransferCurve>
     }
     if (chosen) {
         capture.curve = *chosen;
-        capture.curveSource = "--transfer";
+        capture.curveSource = "chosen";
     } else if (contents.transfer) {
         capture.curve = *contents.transfer;
         capture.curveSource = contents.listing.filename().string();

@@ -55,13 +55,13 @@ Finding findingOf(const CaptureDefect& defect, double scatter)
         return {
             FindingCode::transferCurveLeft,
             fmt::format("the photographs are not linear (raised to the power {:.2g}, {}): a transfer curve is left in "
-                        "them; give --transfer srgb, or linear files",
+                        "them; decode them as sRGB, or give linear files",
                         defect.size, gain)};
     case CaptureDefect::Kind::decoded:
         return {
             FindingCode::transferCurveTaken,
             fmt::format("the photographs are not linear (raised to the power {:.2g}, {}): a transfer curve was taken "
-                        "from them that they did not have; give --transfer linear",
+                        "from them that they did not have; read them as linear",
                         defect.size, gain)};
     case CaptureDefect::Kind::nearLights:
         break;

@@ -229,7 +229,7 @@ Rig calibrateLights(const Capture& capture, const CalibrationOptions& options)
         rig.directionsFrom = capture.mirrorSphere->source.string();
     } else {
         throw Error(capture.folder, "says nothing of its lights",
-                    "light directions, a mirror sphere (--mirror-sphere DIR) or a rig (--rig FILE)");
+                    "light directions, photographs of a mirror sphere, or a rig");
     }
     if (capture.diffuseSphere) {
         addIrradiances(capture, options, rig);

@@ -47,7 +47,7 @@ std::vector<size_t> chosenLights(const std::vector<Light>& lights, const LightCh
         return candidates;
     }
     if (choice.given < kFewestLightsGiven || choice.given > candidates.size()) {
-        throw Error("", fmt::format("--lights-given {} is not possible", choice.given),
+        throw Error("", fmt::format("{} lights given are not possible", choice.given),
                     fmt::format("{} to {}, the capture's lights{}", kFewestLightsGiven, candidates.size(),
                                 choice.heldOutEvery ? " that are not held out" : ""),
                     Error::kUsage);

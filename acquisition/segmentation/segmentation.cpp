@@ -22,7 +22,7 @@ size_t countOf(const std::string& text)
     const std::optional<double> number = parseNumber(text);
     const bool whole = number && *number >= 1 && *number <= kMostMaterials && *number == static_cast<int>(*number);
     if (!whole) {
-        throw Error("", fmt::format("--segment auto:{} is not possible", text),
+        throw Error("", fmt::format("segmentation auto:{} is not possible", text),
                     fmt::format("auto:N with N from 1 to {}", kMostMaterials), Error::kUsage);
     }
     return static_cast<size_t>(*number);
@@ -221,7 +221,7 @@ Segmentation foundSegmentation(const std::vector<PixelTraits>& traits, const Cap
 {
     if (options.count > traits.size()) {
         throw Error(capture.folder, fmt::format("has {} pixels that tell their material", traits.size()),
-                    fmt::format("as many as the {} materials of --segment auto:{}", options.count, options.count));
+                    fmt::format("as many as the {} materials to find", options.count));
     }
     const FoundMaterials found = findMaterials(traits, options.count);
     std::vector<uint8_t> labels(capture.mask.size(), kUnlabelled);

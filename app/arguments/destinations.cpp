@@ -21,6 +21,9 @@ void requireWritable(const fs::path& output, const fs::path& folder)
 
 void requireDestination(const fs::path& output, bool replace)
 {
+    if (fs::exists(output) && !replace) {
+        throw Error(output, "exists already", "a new name, or --force to replace it");
+    }
     WholeOutput(output, replace);
     requireWritable(output, (output.has_filename() ? output : output.parent_path()).parent_path());
 }

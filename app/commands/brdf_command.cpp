@@ -142,7 +142,7 @@ void saveBrdfPictures(const std::filesystem::path& folder, const BrdfSource& sou
 {
     std::filesystem::create_directories(folder);
     for (const char* name : kPictures) {
-        WholeOutput(folder / name, replace); // refuses now what it would refuse after the work
+        requireDestination(folder / name, replace);
     }
     saveImage(folder / kPictures[0], slicesSheet(source.model, threads), PixelType::uint8);
     saveImage(folder / kPictures[1], ballsSheet(source.model, threads), PixelType::uint8);

@@ -163,7 +163,7 @@ void stopOnInterrupt()
 // Refuses now what it would refuse after the work.
 void checkOutput(const ChartArguments& arguments)
 {
-    WholeOutput(arguments.output, arguments.force);
+    requireDestination(arguments.output, arguments.force);
     if (fs::exists(arguments.output) && !fs::exists(arguments.output / kReport)) {
         throw Error(arguments.output, "exists and holds no " + std::string(kReport),
                     "a new name; --force replaces charts alone");

@@ -4,6 +4,7 @@
 #include <glm/geometric.hpp>
 
 #include "acquisition/chain/acquire.h"
+#include "app/arguments/destinations.h"
 #include "app/arguments/residual_arguments.h"
 #include "app/commands/commands.h"
 #include "app/report/acquisition_summary.h"
@@ -145,6 +146,7 @@ void runDemo(const DemoArguments& arguments)
         throw Error("", fmt::format("--threads {} is not possible", arguments.threads), "1 or more, or 0 for all",
                     Error::kUsage);
     }
+    requireDestination(arguments.folder, arguments.force);
     WholeOutput output(arguments.folder, arguments.force);
     std::filesystem::create_directory(output.temporary());
     if (!arguments.quiet) {

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "app/arguments/capture_arguments.h"
+#include "app/arguments/destinations.h"
 #include "app/commands/commands.h"
 #include "app/report/progress_line.h"
 #include "engine/files/error.h"
@@ -59,7 +60,7 @@ StressSubject subjectOf(StressArguments& arguments)
 // Refuses now what it would refuse after the work.
 void checkOutput(const StressArguments& arguments)
 {
-    WholeOutput(arguments.output, arguments.capture.force);
+    requireDestination(arguments.output, arguments.capture.force);
     if (fs::exists(arguments.output) && !fs::exists(arguments.output / kStressTable)) {
         throw Error(arguments.output, "exists and holds no " + std::string(kStressTable),
                     "a new name; --force replaces the results of stress alone");

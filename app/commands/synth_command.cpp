@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "app/arguments/destinations.h"
 #include "app/commands/commands.h"
 #include "assets/synth/synth_capture.h"
 #include "engine/files/error.h"
@@ -71,6 +72,7 @@ void run(SynthArguments& arguments)
         throw Error("", fmt::format("--threads {} is not possible", o.threads), "1 or more, or 0 for all",
                     Error::kUsage);
     }
+    requireDestination(arguments.output, arguments.force);
     o.width = o.height = arguments.size;
     o.shadows = !arguments.noShadows;
     if (!arguments.materials.empty()) {

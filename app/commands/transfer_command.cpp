@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "app/arguments/destinations.h"
 #include "app/commands/commands.h"
 #include "app/materials/render_output.h"
 #include "app/materials/transfer_pictures.h"
@@ -68,6 +69,7 @@ void runTransfer(const TransferArguments& arguments)
     const auto seconds = [&] { return watch.seconds(); };
     checkArguments(arguments);
     const RenderOutput output = outputOf(arguments);
+    requireDestination(arguments.output, arguments.force);
     WholeOutput folder(arguments.output, arguments.force);
     const Context context(arguments.device);
     const PictureSize size = sizeFromArgument("--size", arguments.size);

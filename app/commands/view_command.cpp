@@ -46,6 +46,15 @@ void check(const ViewArguments& arguments, const SceneDescription& scene)
     requireConsistent(scene);
 }
 
+std::vector<const char*> windowExtensions()
+{
+    try {
+        return Window::vulkanExtensions();
+    } catch (const Error& e) {
+        throw Error("", e.what(), "or --headless -o FILE.png");
+    }
+}
+
 // A window shows one picture.
 SceneDescription sceneFrom(const ViewArguments& arguments)
 {
@@ -65,9 +74,7 @@ void runView(const ViewArguments& arguments)
     const PictureSize size = sizeFromArgument("--window", arguments.window.empty() ? "1280x720" : arguments.window);
     makeAbsolute(scene);
     const Choices choices = choicesOf(scene);
-    const std::vector<const char*> extensions =
-        arguments.headless ? std::vector<const char*>{} : Window::vulkanExtensions();
-    const Context context(arguments.scene.device, extensions);
+    const Context context(arguments.scene.device, arguments.headless ? std::vector<const char*>{} : windowExtensions());
     SceneSource source{.context = context, .fits = arguments.scene.fits, .photographs = {}};
     if (!arguments.capture.empty()) {
         source.photographs = photographsOf(arguments.capture, scene.surface);

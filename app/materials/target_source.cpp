@@ -173,9 +173,10 @@ TargetReport targetOfNormalMap(const TargetCommandArguments& arguments)
     Stopwatch watch;
     const NormalMap map = loadNormalMap(arguments.source, normalYOf(arguments));
     report.stages.push_back({"read", watch.lap()});
-    const std::string warning = flippedGreenWarning(arguments.source, map, normalYOf(arguments));
+    const NormalY normalY = normalYOf(arguments);
+    const std::string warning = flippedGreenWarning(arguments.source, map, normalY);
     if (!warning.empty()) {
-        report.warnings.push_back(warning);
+        report.warnings.push_back(warning + "; --normal-y " + (normalY == NormalY::gl ? "dx" : "gl") + " flips it");
     }
     report.stages.push_back({"check", watch.lap()});
     finish(arguments, surfaceOfNormals(map), watch, report);

@@ -272,7 +272,7 @@ void writeSynthCapture(const fs::path& folder, const SynthScene& scene, bool rep
 {
     WholeOutput output(folder, replace);
     if (fs::exists(folder) && !fs::exists(folder / "capture.json")) {
-        throw Error(folder, "exists and is no capture", "a new name; --force replaces captures alone");
+        throw Error(folder, "exists and is no capture", "a new name: captures alone are replaced");
     }
     const fs::path& temporary = output.temporary();
     createFolder(temporary / "truth");

@@ -93,15 +93,16 @@ void require(bool condition, const char* wrong, const char* expected)
 
 void check(const SynthOptions& o)
 {
-    require(std::min(o.width, o.height) >= 8, "--side is too small", "8 pixels or more");
-    require(o.sphereSize >= 32, "--sphere-size is too small", "32 pixels or more");
-    require(o.lights >= 1, "--lights is not positive", "one light or more");
-    require(o.capDegrees > 0 && o.capDegrees < 90, "--cap-degrees is out of range", "more than 0 and less than 90");
-    require(o.noise >= 0 && o.noise < 1, "--noise is out of range", "0 or more and less than 1");
-    require(o.patches.size() < kMostMaterials, "--material is given too often", "16 times at most");
-    require(!o.exposures.empty(), "--exposures is empty", "relative times such as 1,0.25");
+    require(std::min(o.width, o.height) >= 8, "the picture's side is too small", "8 pixels or more");
+    require(o.sphereSize >= 32, "the spheres' pictures are too small", "32 pixels or more");
+    require(o.lights >= 1, "there are no lights", "one light or more");
+    require(o.capDegrees > 0 && o.capDegrees < 90, "the cap of lights is out of range",
+            "more than 0 and less than 90 degrees");
+    require(o.noise >= 0 && o.noise < 1, "the noise is out of range", "0 or more and less than 1");
+    require(o.patches.size() < kMostMaterials, "there are too many materials", "16 at most");
+    require(!o.exposures.empty(), "there are no exposures", "relative times such as 1,0.25");
     require(std::all_of(o.exposures.begin(), o.exposures.end(), [](double t) { return t > 0.0; }),
-            "--exposures holds a time that is not positive", "relative times such as 1,0.25");
+            "an exposure time is not positive", "relative times such as 1,0.25");
 }
 
 BumpySolid solidOf(SynthShape shape)

@@ -94,7 +94,7 @@ void AnimationFile::add(const Image& picture)
     frame.webp.width = picture.width;
     frame.webp.height = picture.height;
     if (!WebPPictureAlloc(&frame.webp)) {
-        throw Error(file_, "needs more memory than there is", "a smaller --size");
+        throw Error(file_, "needs more memory than there is", "smaller pictures");
     }
     for (int y = 0; y < picture.height; ++y) {
         for (int x = 0; x < picture.width; ++x) {

@@ -41,7 +41,7 @@ WholeOutput::WholeOutput(fs::path destination, bool replace)
         throw Error("", "an output without a name", "a path", Error::kUsage);
     }
     if (fs::exists(destination_) && !replace_) {
-        throw Error(destination_, "exists already", "a new name, or --force to replace it");
+        throw Error(destination_, "exists already", "a new name, or leave to replace it");
     }
     const fs::path parent = destination_.parent_path();
     if (!parent.empty() && !fs::is_directory(parent)) {

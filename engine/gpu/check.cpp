@@ -41,7 +41,7 @@ void checkVulkan(VkResult result, const char* call)
 {
     if (result == VK_ERROR_DEVICE_LOST) {
         throw Error({}, fmt::format("the Vulkan device was lost: {} answered {}", call, resultName(result)),
-                    "a frame that its driver survives: a smaller --size, fewer lights, or another --device");
+                    "a frame that its driver survives: a smaller picture, fewer lights, or another device");
     }
     if (result != VK_SUCCESS) {
         throw Error({}, fmt::format("{} answered {}", call, resultName(result)), "expected VK_SUCCESS");

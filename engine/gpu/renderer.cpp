@@ -183,7 +183,7 @@ RenderPath Renderer::pathTaken()
     }
     const std::string reason = whyDirect();
     if (path_ == RenderPath::ball && !reason.empty()) {
-        throw Error("", "there is no ball for this: " + reason, "--path auto or --path direct", Error::kUsage);
+        throw Error("", "there is no ball for this: " + reason, "path auto or direct", Error::kUsage);
     }
     return reason.empty() ? RenderPath::ball : RenderPath::direct;
 }

@@ -135,7 +135,7 @@ BrdfModel parseFit(const std::string& specification, const std::string& kind, co
 {
     if (fitsFolder.empty()) {
         refuse(specification, "no folder of published fits is given",
-               "--fits DIR or the environment variable NACRE_FITS_DIR");
+               "the folder of the fits, or the environment variable NACRE_FITS_DIR");
     }
     if (kind == "merl-abc") {
         return findFit(specification, loadAbcFits(fitsFolder / "merl_abc_params.csv"), name);

@@ -21,7 +21,7 @@ NamedBrdf parseMaterial(const std::string& specification, const std::filesystem:
 // tabulated at MERL's density.
 Material loadMaterial(const std::string& specification, const std::filesystem::path& fitsFolder, int threads = 0);
 
-// The folder of merl_abc_params.csv and merl_sgd_params.csv: `option` (--fits) where it is given, else the environment
+// The folder of merl_abc_params.csv and merl_sgd_params.csv: `option` where it is given, else the environment
 // variable NACRE_FITS_DIR, else empty.
 std::filesystem::path fitsFolderFrom(const std::filesystem::path& option);
 

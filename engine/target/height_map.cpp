@@ -68,7 +68,7 @@ HeightScale heightScaleFromArgument(const std::string& text)
     if (number.ec != std::errc() || !std::isfinite(scale.value) || scale.value == 0 ||
         (unit != "" && unit != "px" && unit != "%")) {
         throw Error(
-            "", fmt::format("--height-scale {} is not understood", text),
+            "", fmt::format("height scale {} is not understood", text),
             "pixels between black and white (40 or 40px; negative = black is high) or a share of the width (5%)",
             Error::kUsage);
     }

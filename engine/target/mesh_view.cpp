@@ -23,8 +23,8 @@ glm::dmat3 turnOf(const MeshViewOptions& options)
     const glm::dvec3 right = glm::cross(up, from);
     if (!(glm::length(right) > kLeastSine * lengths)) {
         throw Error("",
-                    fmt::format("--up {:.3g},{:.3g},{:.3g} is no direction across --from {:.3g},{:.3g},{:.3g}", up.x,
-                                up.y, up.z, from.x, from.y, from.z),
+                    fmt::format("up {:.3g},{:.3g},{:.3g} is no direction across from {:.3g},{:.3g},{:.3g}", up.x, up.y,
+                                up.z, from.x, from.y, from.z),
                     "two directions that are not parallel, neither of them 0", Error::kUsage);
     }
     const glm::dvec3 z = glm::normalize(from), x = glm::normalize(right);
@@ -45,7 +45,7 @@ MeshView fittedView(const Mesh& mesh, const MeshViewOptions& options)
     const glm::dvec3 extent = highest - lowest;
     const double least = 1e-9 * std::max({extent.x, extent.y, extent.z});
     if (mesh.indices.empty() || extent.x <= least || extent.y <= least) {
-        throw Error("", "the mesh is seen edge-on: nothing of it shows", "another direction with --from");
+        throw Error("", "the mesh is seen edge-on: nothing of it shows", "another direction to look from");
     }
     view.centre = 0.5 * (lowest + highest);
     const double room = 1 - 2 * kMargin;

@@ -54,11 +54,10 @@ std::string flippedGreenWarning(const std::filesystem::path& file, const NormalM
     if (check.verdict != GreenVerdict::flipped) {
         return {};
     }
-    const bool isGl = normalY == NormalY::gl;
     return fmt::format(
         "{}: its green seems to point {}: as a surface, these normals contradict each other {:.2g} times as "
-        "much as with green flipped; --normal-y {} flips it",
-        file.string(), isGl ? "down" : "up", check.residualRatio, isGl ? "dx" : "gl");
+        "much as with green flipped",
+        file.string(), normalY == NormalY::gl ? "down" : "up", check.residualRatio);
 }
 
 } // namespace nacre

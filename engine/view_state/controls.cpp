@@ -49,7 +49,7 @@ void stepPhotograph(Session& session, const Choices& choices, bool forward)
 bool standAtPhotograph(Session& session, const Choices& choices)
 {
     if (!session.hasPhotographs || choices.captured.empty()) {
-        session.message = "needs the photographs of the surface on its own shape: nacre view SURFACE --capture FOLDER";
+        session.message = "needs the photographs of the surface on its own shape: open its capture with it";
         return false;
     }
     const auto shown = session.photograph ? session.photograph : shownPhotograph(session.state);
@@ -79,7 +79,7 @@ void toggleComparison(Session& session, const Choices& choices, Comparison compa
 void stepResidual(Session& session)
 {
     if (!session.hasResidual) {
-        session.message = "what is drawn has no residual layer: nacre acquire --residual makes one of a capture";
+        session.message = "what is drawn has no residual layer: one is measured where the surface is acquired";
         return;
     }
     switch (session.state.residual) {

@@ -32,7 +32,7 @@ VkSurfaceFormatKHR plainFormat(VkPhysicalDevice device, VkSurfaceKHR surface)
             return *found;
         }
     }
-    throw Error({}, "the Vulkan device cannot show 8-bit codes in a window", "another --device, or --headless");
+    throw Error({}, "the Vulkan device cannot show 8-bit codes in a window", "another device");
 }
 
 Owned<VkSemaphore, vkDestroySemaphore> makeSemaphore(VkDevice device)
@@ -96,8 +96,7 @@ void Swapchain::makeSurface()
         "vkGetPhysicalDeviceSurfaceSupportKHR");
     if (!presents) {
         vkDestroySurfaceKHR(context_.instance(), surface_, nullptr);
-        throw Error({}, "the Vulkan device " + context_.info().name + " cannot draw in this window",
-                    "another --device, or --headless");
+        throw Error({}, "the Vulkan device " + context_.info().name + " cannot draw in this window", "another device");
     }
 }
 

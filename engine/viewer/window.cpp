@@ -86,8 +86,7 @@ std::string lastProblem()
 void requireDisplay()
 {
     if (glfwInit() != GLFW_TRUE) {
-        throw Error({}, "there is no display for a window (" + lastProblem() + ")",
-                    "a graphical session, or nacre view --headless -o FILE.png");
+        throw Error({}, "there is no display for a window (" + lastProblem() + ")", "a graphical session");
     }
 }
 
@@ -102,8 +101,7 @@ Window::Window(const std::string& title, int width, int height)
     if (window_ == nullptr) {
         const std::string problem = lastProblem();
         glfwTerminate();
-        throw Error({}, "no window can be opened (" + problem + ")",
-                    "a graphical session, or nacre view --headless -o FILE.png");
+        throw Error({}, "no window can be opened (" + problem + ")", "a graphical session");
     }
     glfwSetWindowUserPointer(window_, this);
     installCallbacks(window_);
@@ -121,7 +119,7 @@ std::vector<const char*> Window::vulkanExtensions()
     uint32_t count = 0;
     const char** names = glfwGetRequiredInstanceExtensions(&count);
     if (names == nullptr) {
-        throw Error({}, "Vulkan cannot draw into windows here", "a driver that can, or nacre view --headless");
+        throw Error({}, "Vulkan cannot draw into windows here", "a driver that can");
     }
     return {names, names + count};
 }

@@ -268,11 +268,11 @@ std::vector<Sweep> normalSweeps(const StressSubject& subject, const std::vector<
         const auto found =
             std::find_if(std::begin(kSweeps), std::end(kSweeps), [&](const NamedSweep& s) { return name == s.name; });
         if (found == std::end(kSweeps)) {
-            throw Error("", fmt::format("--sweep {} is not known", name),
+            throw Error("", fmt::format("sweep {} is not known", name),
                         fmt::format("one of {}", fmt::join(normalSweepNames(), ", ")), Error::kUsage);
         }
         if (found->needsOtherLights && !subject.relit) {
-            throw Error("", fmt::format("--sweep {} needs lights that the photographs do not have", name),
+            throw Error("", fmt::format("sweep {} needs lights that the photographs do not have", name),
                         "`synthetic`, or another sweep", Error::kUsage);
         }
         sweeps.push_back(found->make(subject));

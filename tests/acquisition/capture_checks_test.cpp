@@ -117,13 +117,13 @@ TEST_F(CaptureChecks, TransferCurveByPrecedence)
     EXPECT_EQ(load().curveSource, "declared by cat.0.png");
     options_.transfer = TransferCurve::linear;
     EXPECT_EQ(load().curve, TransferCurve::linear);
-    EXPECT_EQ(load().curveSource, "--transfer");
+    EXPECT_EQ(load().curveSource, "chosen");
 }
 
 TEST_F(CaptureChecks, PhotographsThatDeclareDifferentCurves)
 {
     saveImage(folder_ / "cat.2.png", testPicture(2), PixelType::uint8);
-    expectRefused({"cat.2.png", "declares sRGB", "cat.0.png", "declares linear", "--transfer"});
+    expectRefused({"cat.2.png", "declares sRGB", "cat.0.png", "declares linear", "one curve"});
     options_.transfer = TransferCurve::linear;
     EXPECT_EQ(load().curve, TransferCurve::linear);
 }

@@ -131,7 +131,7 @@ TEST_F(CaptureCorrections, SkippedPhotographsGoWithTheirLightsAndSpheres)
     options.skip = {"P2"};
     expectSecondGone(load(files_, rest, options));
     options.skip = {"p7.png"};
-    expectError([&] { load(files_, rest, options); }, {"--skip p7.png names 0", "p1.png"}, Error::kUsage);
+    expectError([&] { load(files_, rest, options); }, {"p7.png names 0 photographs", "p1.png"}, Error::kUsage);
     options.skip = {"p1", "p2"};
     expectError([&] { load(files_, rest, options); }, {"has 2 photographs"});
 }

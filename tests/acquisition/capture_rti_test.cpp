@@ -100,7 +100,7 @@ TEST_F(CaptureRti, AMaskIsFoundByItsName)
     writeMask(folder_ / "dome mask.tga");
     EXPECT_EQ(load().maskPixels, size_t{6} * kTestHeight);
     writeMask(folder_ / "mask.png", 4);
-    expectRefused({"mask.png", "dome mask.tga", "--mask"});
+    expectRefused({"mask.png", "dome mask.tga", "choice of a mask"});
     CaptureOptions options;
     options.mask = folder_ / "mask.png";
     EXPECT_EQ(load(options).maskPixels, size_t{4} * kTestHeight);
@@ -134,7 +134,7 @@ TEST_F(CaptureRti, CountsHaveToAgree)
 TEST_F(CaptureRti, OfTwoListsTheUserChooses)
 {
     writeText(folder_ / "other.lp", "3\nphoto 1.png 1 0 0\nphoto 2.png 0 1 0\nphoto 3.png 0 0 1\n");
-    expectRefused({"2 .lp files", "lights.lp", "other.lp", "--rig"});
+    expectRefused({"2 .lp files", "lights.lp", "other.lp", "choice of a rig"});
     CaptureOptions options;
     options.rig = folder_ / "other.lp";
     EXPECT_EQ(load(options).photographs.size(), 3u);

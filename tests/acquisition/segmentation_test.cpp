@@ -187,7 +187,7 @@ TEST(Segmentation, OneAskedForIsNoneAndTheCapturesLabelsAreTheDefault)
     EXPECT_EQ(segmentOptionsFrom("").source, SegmentSource::asCaptured);
     EXPECT_EQ(segmentOptionsFrom("auto:7").count, 7u);
     for (const char* wrong : {"auto:0", "auto:", "auto:-2", "auto:2.5", "auto:65", "auto:x"}) {
-        expectError([&] { segmentOptionsFrom(wrong); }, {"--segment", wrong}, Error::kUsage);
+        expectError([&] { segmentOptionsFrom(wrong); }, {"segmentation", wrong}, Error::kUsage);
     }
     const TempFolder folder;
     SynthOptions synth = threeMaterials();
@@ -214,7 +214,7 @@ TEST(Segmentation, AsManyAreFoundAsAreAskedForAndNoMoreThanPixels)
     synth.shape = SynthShape::sphere;
     const TempFolder other;
     const Capture tiny = synthesise(other, synth).capture;
-    expectError([&] { acquire(tiny, finding(kMostMaterials), kSilent); }, {"auto:64", "pixels"});
+    expectError([&] { acquire(tiny, finding(kMostMaterials), kSilent); }, {"64 materials", "pixels"});
 }
 
 TEST(SegmentationSlow, SameBytesForOneAndTwoThreadsAndAnyBudget)

@@ -173,7 +173,7 @@ TEST_F(SphereInPictureTest, BadCropsNameFileAndNumbers)
     expectRefused("in-picture:2,14,72,72", {"photo", ".png", "no highlight"});
     for (const std::string text : {"in-picture:", "in-picture:1,2,3", "in-picture:1,2,3,0", "in-picture:-1,2,3,4",
                                    "in-picture:1,2,3,4,", "in-picture:1,2,3,4.5", "in-picture:1;2;3;4"}) {
-        expectRefused(text, {"--mirror-sphere", text, "X,Y,W,H"}, Error::kUsage);
+        expectRefused(text, {"mirror sphere", text, "X,Y,W,H"}, Error::kUsage);
     }
 }
 

@@ -89,8 +89,8 @@ TEST(WellSpreadLights, AreNotHeldOut)
 TEST(WellSpreadLights, RefusesFewerThanThreeAndMoreThanThereAre)
 {
     const std::vector<Light> lights = scatteredLights(10);
-    expectError([&] { chosenLights(lights, {2, 0}); }, {"--lights-given 2", "3 to 10"}, Error::kUsage);
-    expectError([&] { chosenLights(lights, {11, 0}); }, {"--lights-given 11", "3 to 10"}, Error::kUsage);
+    expectError([&] { chosenLights(lights, {2, 0}); }, {"2 lights given", "3 to 10"}, Error::kUsage);
+    expectError([&] { chosenLights(lights, {11, 0}); }, {"11 lights given", "3 to 10"}, Error::kUsage);
     expectError([&] { chosenLights(lights, {9, 5}); }, {"3 to 8", "not held out"}, Error::kUsage);
 }
 

@@ -324,7 +324,7 @@ TEST_F(BadInputTest, UsageErrorsAreOneLineThatNamesTheHelp)
         {{"acquire", "c", "-o", "x.nacre", "--k", "many"}, {"--k many", "auto"}},
         {{"acquire", "c", "-o", "x.nacre", "--tolerance", "good"}, {"--tolerance good", "45dB"}},
         {{"acquire", "c", "-o", "x.nacre", "--budget-bytes", "3X"}, {"--budget-bytes 3X", "64KiB"}},
-        {{"acquire", "c", "-o", "x.nacre", "--range", "all"}, {"--range all", "captured, front or full"}},
+        {{"acquire", "c", "-o", "x.nacre", "--range", "all"}, {"range all", "captured, front or full"}},
         {{"evaluate", "c", "--hold-out", "every:1"}, {"every:1", "N from 2"}},
         {{"compare", "a.png"}, {"REFERENCE is required", "nacre compare --help"}},
         {{"synth", "x", "--shape", "cube"}, {"--shape cube", "bumpy or sphere"}},

@@ -153,11 +153,11 @@ TEST(SynthScene, RefusesOptionsThatMakeNoCapture)
         change(options);
         expectError([&] { makeSynthScene(options); }, {about}, Error::kUsage);
     };
-    refused([](SynthOptions& o) { o.width = 2; }, "--side");
-    refused([](SynthOptions& o) { o.lights = 0; }, "--lights");
-    refused([](SynthOptions& o) { o.capDegrees = 90; }, "--cap-degrees");
-    refused([](SynthOptions& o) { o.noise = -1; }, "--noise");
-    refused([](SynthOptions& o) { o.exposures = {1, 0}; }, "--exposures");
+    refused([](SynthOptions& o) { o.width = 2; }, "side is too small");
+    refused([](SynthOptions& o) { o.lights = 0; }, "no lights");
+    refused([](SynthOptions& o) { o.capDegrees = 90; }, "cap of lights");
+    refused([](SynthOptions& o) { o.noise = -1; }, "noise");
+    refused([](SynthOptions& o) { o.exposures = {1, 0}; }, "exposure time");
     refused([](SynthOptions& o) { o.material = "lambert:0"; }, "reflects no light");
     refused([](SynthOptions& o) { o.material = "tweed"; }, "tweed");
 }

@@ -153,7 +153,7 @@ TEST(WholeOutput, RefusesWhatExistsAndReplacesOnRequest)
 {
     const TempFolder folder;
     writeTextFile(folder / "a.txt", "old");
-    expectError([&] { WholeOutput(folder / "a.txt", false); }, {"a.txt: exists already", "--force"});
+    expectError([&] { WholeOutput(folder / "a.txt", false); }, {"a.txt: exists already", "a new name"});
     expectError([&] { WholeOutput(folder / "no" / "a.txt", false); }, {"its folder does not exist"});
     {
         WholeOutput abandoned(folder / "a.txt", true);

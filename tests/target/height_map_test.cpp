@@ -48,7 +48,7 @@ TEST(HeightMap, ScalesArePixelsOrSharesOfTheWidth)
     EXPECT_EQ(heightScaleFromArgument("-12px").pixels(100), -12);
     EXPECT_FLOAT_EQ(heightScaleFromArgument("5%").pixels(200), 10);
     for (const char* text : {"", "px", "0", "nan", "5 %", "5m", "5%%"}) {
-        expectError([&] { heightScaleFromArgument(text); }, {"--height-scale", "not understood"}, Error::kUsage);
+        expectError([&] { heightScaleFromArgument(text); }, {"height scale", "not understood"}, Error::kUsage);
     }
     const TempFolder folder;
     saveImage(folder / "f.exr", ramp(), PixelType::float32);

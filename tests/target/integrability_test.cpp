@@ -73,12 +73,12 @@ TEST(Integrability, SaysNothingOfWhatCannotTell)
     }
 }
 
-TEST(Integrability, TheWarningNamesTheRemedy)
+TEST(Integrability, TheWarningSaysWhereGreenPoints)
 {
     const NormalMap head = makeTarget("head", 256, 256).normals;
     EXPECT_EQ(flippedGreenWarning("a.png", head, NormalY::gl), "");
-    EXPECT_NE(flippedGreenWarning("a.png", flipped(head), NormalY::gl).find("--normal-y dx"), std::string::npos);
-    EXPECT_NE(flippedGreenWarning("a.png", flipped(head), NormalY::dx).find("--normal-y gl"), std::string::npos);
+    EXPECT_NE(flippedGreenWarning("a.png", flipped(head), NormalY::gl).find("point down"), std::string::npos);
+    EXPECT_NE(flippedGreenWarning("a.png", flipped(head), NormalY::dx).find("point up"), std::string::npos);
 }
 
 } // namespace

@@ -82,12 +82,12 @@ TEST_F(MeshRasterTest, LooksFromWhereItIsAsked)
     EXPECT_EQ(surface.labels[surface.normals.index(30, 5)], 0) << "the roof is up";
     EXPECT_EQ(surface.labels[surface.normals.index(15, 5)], Surface::kNoMaterial);
     EXPECT_EQ(surface.labels[surface.normals.index(30, 55)], 0);
-    expectError([&] { view(mesh, {.from = {0, 0, 1}}); }, {"edge-on", "--from"});
+    expectError([&] { view(mesh, {.from = {0, 0, 1}}); }, {"edge-on", "another direction"});
     expectError(
         [&] {
             view(mesh, {.from = {0, 1, 0}, .up = {0, 3, 0}});
         },
-        {"--up", "--from", "parallel"}, Error::kUsage);
+        {"is no direction across", "parallel"}, Error::kUsage);
     expectError([&] { view(mesh, {.from = {1, 0, 0}, .width = 1 << 20}); }, {"cannot draw"});
 }
 
