@@ -40,6 +40,10 @@ void check(const ViewArguments& arguments, const SceneDescription& scene)
     if (arguments.headless && (!arguments.window.empty() || !arguments.screenshots.empty())) {
         throw Error("", "--window and --screenshots are the window's", "--size and -o with --headless", Error::kUsage);
     }
+    if (arguments.capture.empty() && scene.show == Show::verdicts) {
+        throw Error("", "verdicts need the photographs", "--capture FOLDER, from which SURFACE was measured",
+                    Error::kUsage);
+    }
     if (!arguments.screenshots.empty() && !std::filesystem::is_directory(arguments.screenshots)) {
         throw Error(arguments.screenshots, "is no folder", "one for screenshots");
     }

@@ -29,16 +29,9 @@ ViewState otherPart(const ViewState& state, const Choices& choices)
 
 } // namespace
 
-void requireShown(const ViewState& state, const SceneSource& source)
+void requireShown(const ViewState& state)
 {
-    if (state.show != Show::verdicts) {
-        return;
-    }
-    if (!source.photographs) {
-        throw Error("", "verdicts need the photographs", "the capture that the surface was measured from",
-                    Error::kUsage);
-    }
-    if (!shownPhotograph(state)) {
+    if (state.show == Show::verdicts && !shownPhotograph(state)) {
         throw Error("", "verdicts are of one photograph",
                     "the light captured:N alone, and the surface on its own shape", Error::kUsage);
     }

@@ -15,7 +15,7 @@ namespace nacre {
 struct SceneSource {
     const Context& context;
     std::filesystem::path fits; // of fitted models; empty: none given
-    std::optional<Photographs> photographs;
+    std::optional<Photographs> photographs; // empty: no verdicts
 };
 
 // A surface to draw, and how finely its materials' balls are sampled.
@@ -31,8 +31,8 @@ struct LoadedScene {
     std::shared_ptr<const Environment> environment;
 };
 
-// Throws Error (usage) where the state shows verdicts, its captured lights resolved, and no photograph is at hand.
-void requireShown(const ViewState& state, const SceneSource& source);
+// Throws Error (usage) where the state, its captured lights resolved, shows verdicts that are not one photograph's.
+void requireShown(const ViewState& state);
 
 // The part of a state that loading surfaces depends on: states that share it share what is loaded.
 ViewState loadedPart(const ViewState& state);

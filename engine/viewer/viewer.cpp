@@ -379,7 +379,7 @@ void runViewer(const Context& context, ViewState state, Choices choices, const S
                const ViewerOptions& options)
 {
     resolveCaptured(state, choices.captured);
-    requireShown(state, source);
+    requireShown(state);
     ViewerWindow(context, std::move(state), std::move(choices), source, options).run();
 }
 
@@ -387,7 +387,7 @@ void viewHeadless(const Context& context, ViewState state, const Choices& choice
                   const std::filesystem::path& output)
 {
     resolveCaptured(state, choices.captured);
-    requireShown(state, source);
+    requireShown(state);
     ViewPictures pictures(context);
     if (state.show == Show::verdicts) {
         source.photographs->load([](float) {}, false);

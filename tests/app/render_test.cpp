@@ -177,6 +177,13 @@ TEST_F(RenderTest, ViewRefusesPhotographsThatAreNone)
                   3, "none");
 }
 
+TEST_F(RenderTest, ViewSaysWhatVerdictsNeed)
+{
+    expectRefusal(runNacre({"view", path("s.nacre"), "--headless", "-o", path("new.png"), "--light", "captured:1",
+                            "--show", "verdicts"}),
+                  2, "--capture FOLDER");
+}
+
 TEST_F(RenderTest, ViewWithoutAWindowTakesNoWindowsOptions)
 {
     expectRefusal(runNacre({"view", path("s.nacre"), "--headless", "-o", path("new.png"), "--window", "64x48"}), 2,

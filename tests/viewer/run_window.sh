@@ -72,7 +72,7 @@ check "V shows verdicts" holds "$verdicts" '"show": "verdicts"'
 check "the screen shows them" screen_shows "$verdicts" "$picture"
 check_later "verdicts again without a window" reproduces_itself "$verdicts" --capture "$work/capture"
 check_later "what it calls shadow is dark in the photograph" shadows_are_dark
-check_later "verdicts need the photographs" refuses photographs view --state "$(state_of "$verdicts")" --headless -o none.png
+check_later "verdicts need the photographs" refuses --capture view --state "$(state_of "$verdicts")" --headless -o none.png
 check_later "which render has none of" refuses --capture render --state "$(state_of "$verdicts")" -o none.png
 press bracketright; screenshot
 check "] shows the next one's verdicts" differs "$verdicts" "$shot"
