@@ -185,13 +185,11 @@ SceneDescription sceneFromFile(const fs::path& file)
         json.erase("version");
         SceneJson window = json.value("window", SceneJson::object());
         json.erase("window");
-        const bool hasCentre = window.contains("centre");
         visitScene(scene, readingFrom(json, file.parent_path()));
         visitWindow(scene, readingFrom(window, file.parent_path()));
-        if (!hasCentre) {
-            scene.framing = {};
-        }
-        requireNothingLeft(json, file, "the long options of nacre render");
+        requireNothingLeft(json, file,
+                           json.contains("residual") ? "'layer' in place of 'residual'"
+                                                     : "the long options of nacre render");
         requireNothingLeft(window, file, "the keys of \"window\" in docs/formats.md");
     } catch (const SceneJson::exception& e) {
         throw Error(file, std::string("is not understood: ") + e.what(), "the form of docs/formats.md");

@@ -246,6 +246,18 @@ TEST_F(RenderTest, AStateFileIsTheCommandLine)
     expectRefusal(runNacre({"render", "--state", path("other.json"), "-o", path("new.png")}), 3, "nacre scene");
 }
 
+TEST_F(RenderTest, TheCommandLineBeatsTheStateFile)
+{
+    writeText(folder_ / "scene.json", R"({"format": "nacre scene", "version": 1, "surface": "s.nacre",
+        "light": ["captured:2", "0,0,1"], "exposure": 0.5, "size": "90x60"})");
+    ASSERT_EQ(runNacre({"render", "--state", path("scene.json"), "--light", "captured:1", "--exposure", "-1", "-o",
+                        path("a.png")})
+                  .exitCode,
+              0);
+    ASSERT_EQ(render("b.png", {"--light", "captured:1", "--exposure", "-1", "--size", "90x60"}).exitCode, 0);
+    EXPECT_EQ(loadImage(path("a.png")).values, loadImage(path("b.png")).values);
+}
+
 TEST_F(RenderTest, SequencesAreNumbered)
 {
     ASSERT_EQ(render("turn.png", {"--light", "0.6,0,0.8", "--frames", "4"}).exitCode, 0);

@@ -55,6 +55,9 @@ TEST(ViewState, ComesBackFromItsFileToTheBit)
     const ViewState state = fullState(folder.path());
     EXPECT_EQ(throughFile(state, folder / "state.json"), state);
     EXPECT_EQ(throughFile({}, folder / "empty.json"), ViewState{});
+    ViewState atCorner;
+    atCorner.framing = {.zoom = 2, .centre = {0, 0}};
+    EXPECT_EQ(throughFile(atCorner, folder / "corner.json"), atCorner);
 }
 
 TEST(SceneNames, EveryChoiceHasOne)
@@ -116,6 +119,7 @@ TEST(ViewState, RefusesWhatItDoesNotKnow)
     };
     refused(R"("colour": 1)", {"s.json", "unknown key 'colour'"});
     refused(R"("window": {"colour": 1})", {"s.json", "unknown key 'colour'", "window"});
+    refused(R"("residual": "off")", {"s.json", "unknown key 'residual'", "'layer' in place"});
     refused(R"("light": "0,0,1")", {"s.json", "is not understood"});
     refused(R"("exposure": "bright")", {"s.json", "is not understood"});
 }
