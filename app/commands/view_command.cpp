@@ -79,7 +79,7 @@ void runView(const ViewArguments& arguments)
     makeAbsolute(scene);
     const Choices choices = choicesOf(scene);
     const Context context(arguments.scene.device, arguments.headless ? std::vector<const char*>{} : windowExtensions());
-    SceneSource source{.context = context, .fits = arguments.scene.fits, .photographs = {}};
+    SceneSource source{.context = context, .fits = arguments.scene.fits, .photographs = nullptr};
     if (!arguments.capture.empty()) {
         source.photographs = photographsOf(arguments.capture, scene.surface);
     }

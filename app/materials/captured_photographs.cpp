@@ -73,13 +73,13 @@ std::vector<size_t> photographsOfLights(const Surface& surface, const Capture& c
     return found;
 }
 
-std::shared_ptr<HeldCapture> heldOf(const std::filesystem::path& capture, const std::filesystem::path& surface)
+HeldCapture heldOf(const std::filesystem::path& capture, const std::filesystem::path& surface)
 {
-    auto held = std::make_shared<HeldCapture>();
-    held->surface = loadSurface(surface);
-    held->capture = loadCapture(capture);
-    require(*held, capture);
-    held->photographOf = photographsOfLights(held->surface, held->capture, capture);
+    HeldCapture held;
+    held.surface = loadSurface(surface);
+    held.capture = loadCapture(capture);
+    require(held, capture);
+    held.photographOf = photographsOfLights(held.surface, held.capture, capture);
     return held;
 }
 
@@ -176,7 +176,7 @@ std::vector<uint8_t> verdictsUnder(const HeldCapture& held, size_t light)
     return verdicts;
 }
 
-void load(HeldCapture& held, const std::function<void(float)>& progress, const std::atomic<bool>& isCancelled)
+void readAll(HeldCapture& held, const std::function<void(float)>& progress, const std::atomic<bool>& isCancelled)
 {
     held.all = {}; // what a cancelled reading left
     ObservationReader reader(held.capture, 0, kBlockBytes);
@@ -189,17 +189,29 @@ void load(HeldCapture& held, const std::function<void(float)>& progress, const s
     judgeAll(held, progress, isCancelled);
 }
 
+class CapturedPhotographs : public Photographs {
+public:
+    explicit CapturedPhotographs(HeldCapture held) : held_(std::move(held)) {}
+
+    void load(const std::function<void(float)>& progress, const std::atomic<bool>& isCancelled) override
+    {
+        readAll(held_, progress, isCancelled);
+    }
+    glm::ivec2 size() const override { return {held_.capture.width, held_.capture.height}; }
+    Image picture(size_t light) const override { return pictureUnder(held_, light); }
+    std::vector<PixelObservation> observations(size_t pixel) const override { return observationsAt(held_, pixel); }
+    std::vector<uint8_t> verdicts(size_t light) const override { return verdictsUnder(held_, light); }
+    double peak() const override { return held_.peak; }
+
+private:
+    HeldCapture held_;
+};
+
 } // namespace
 
-Photographs photographsOf(const std::filesystem::path& capture, const std::filesystem::path& surface)
+std::unique_ptr<Photographs> photographsOf(const std::filesystem::path& capture, const std::filesystem::path& surface)
 {
-    const std::shared_ptr<HeldCapture> held = heldOf(capture, surface);
-    return {.load = [=](const auto& progress, const auto& isCancelled) { load(*held, progress, isCancelled); },
-            .size = [=] { return glm::ivec2(held->capture.width, held->capture.height); },
-            .picture = [=](size_t light) { return pictureUnder(*held, light); },
-            .observations = [=](size_t pixel) { return observationsAt(*held, pixel); },
-            .verdicts = [=](size_t light) { return verdictsUnder(*held, light); },
-            .peak = [=] { return held->peak; }};
+    return std::make_unique<CapturedPhotographs>(heldOf(capture, surface));
 }
 
 } // namespace nacre

@@ -1,5 +1,6 @@
 #pragma once
 #include <filesystem>
+#include <memory>
 
 #include "engine/viewer/photographs.h"
 
@@ -8,6 +9,6 @@ namespace nacre {
 // The photographs of a capture as a window shows them beside the surface that was measured from them; read when they
 // are asked for, but a capture that does not go with the surface is refused at once. Verdicts are those of the
 // surface's own model. Throws Error.
-Photographs photographsOf(const std::filesystem::path& capture, const std::filesystem::path& surface);
+std::unique_ptr<Photographs> photographsOf(const std::filesystem::path& capture, const std::filesystem::path& surface);
 
 } // namespace nacre

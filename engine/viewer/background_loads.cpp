@@ -88,12 +88,12 @@ bool Loader::finish()
 }
 
 BackgroundLoads::BackgroundLoads(const SceneSource& source, const ViewState& shown, std::function<void()> wake)
-    : source_(source), shown_(shown), requested_(shown), photographs_(source.photographs), sceneLoader_(wake),
-      photographLoader_(wake), materialLoader_(wake)
+    : source_(source), shown_(shown), requested_(shown), sceneLoader_(wake), photographLoader_(wake),
+      materialLoader_(wake)
 {
-    if (photographs_) {
-        photographLoader_.start("reading photographs", [this, read = *photographs_](Loader::Progress& progress) {
-            read.load([&](float share) { progress.share = share; }, progress.isCancelled);
+    if (source_.photographs) {
+        photographLoader_.start("reading photographs", [this](Loader::Progress& progress) {
+            source_.photographs->load([&](float share) { progress.share = share; }, progress.isCancelled);
             return [this] { done_.photographs = photographsAreRead_ = true; };
         });
     }

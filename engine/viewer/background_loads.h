@@ -84,14 +84,13 @@ public:
     bool readsScene() const { return sceneLoader_.isBusy(); }
     bool readsPhotographs() const { return photographLoader_.isBusy(); }
     const Loader* busy() const; // what the user may cancel; null: nothing is read
-    const Photographs* photographs() const { return photographsAreRead_ ? &*photographs_ : nullptr; }
+    const Photographs* photographs() const { return photographsAreRead_ ? source_.photographs.get() : nullptr; }
 
 private:
     void readNextMaterial(const Choices& choices);
 
     const SceneSource& source_;
     ViewState shown_, requested_;
-    std::optional<Photographs> photographs_;
     bool photographsAreRead_ = false;
     std::set<std::string> triedMaterials_;
     Done done_;

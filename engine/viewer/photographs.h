@@ -20,17 +20,21 @@ struct PixelObservation {
 
 // The photographs that a surface was measured from, in the order of its captured lights. Who reads them is not the
 // window's business. All throw Error.
-struct Photographs {
+class Photographs {
+public:
+    virtual ~Photographs() = default;
     // Reads and judges them; tells the share that is done, from any thread, and stops early where asked to.
-    std::function<void(const std::function<void(float)>& progress, const std::atomic<bool>& isCancelled)> load;
+    virtual void load(const std::function<void(float)>& progress, const std::atomic<bool>& isCancelled) = 0;
+
     // After load. Pixels of each.
-    std::function<glm::ivec2()> size;
+    virtual glm::ivec2 size() const = 0;
     // Linear radiance of one, 0 outside of the object.
-    std::function<Image(size_t light)> picture;
-    std::function<std::vector<PixelObservation>(size_t pixel)> observations;
+    virtual Image picture(size_t light) const = 0;
+    virtual std::vector<PixelObservation> observations(size_t pixel) const = 0;
     // On one's every pixel, as `observations` has them; kNotJudged outside of the object.
-    std::function<std::vector<uint8_t>(size_t light)> verdicts;
-    std::function<double()> peak; // 99th percentile of all values, which PSNR is relative to
+    virtual std::vector<uint8_t> verdicts(size_t light) const = 0;
+    // 99th percentile of all values, which PSNR is relative to.
+    virtual double peak() const = 0;
 };
 
 } // namespace nacre

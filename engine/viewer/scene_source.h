@@ -14,8 +14,8 @@ namespace nacre {
 // From what a state is read beside the files that it names; by the background as well.
 struct SceneSource {
     const Context& context;
-    std::filesystem::path fits; // of fitted models; empty: none given
-    std::optional<Photographs> photographs; // empty: no verdicts
+    std::filesystem::path fits;               // of fitted models; empty: none given
+    std::shared_ptr<Photographs> photographs; // null: none, so no verdicts
 };
 
 // A surface to draw, and how finely its materials' balls are sampled.

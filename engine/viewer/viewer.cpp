@@ -391,7 +391,7 @@ void viewHeadless(const Context& context, ViewState state, const Choices& choice
     ViewPictures pictures(context);
     if (state.show == Show::verdicts) {
         source.photographs->load([](float) {}, false);
-        pictures.setPhotographs(&*source.photographs);
+        pictures.setPhotographs(source.photographs.get());
     }
     pictures.setScene(loadScene(source, state, choices, {}, {}));
     const glm::vec3 view = viewDirectionOf(state);

@@ -17,19 +17,19 @@ TEST(CapturedPhotographs, VerdictsOnAPictureAreThoseOfItsPixels)
     const std::string capture = (folder / "capture").string(), surface = (folder / "s.nacre").string();
     ASSERT_EQ(runNacre({"synth", capture, "--lights", "8", "--side", "48", "--give-lights"}).exitCode, 0);
     ASSERT_EQ(runNacre({"acquire", capture, "-o", surface, "--normals", "consensus"}).exitCode, 0);
-    const Photographs photographs = photographsOf(capture, surface);
+    const std::unique_ptr<Photographs> photographs = photographsOf(capture, surface);
     std::atomic<bool> isWhole = false; // told from several threads
-    photographs.load([&](float share) { isWhole = isWhole || share == 1; }, false);
+    photographs->load([&](float share) { isWhole = isWhole || share == 1; }, false);
     EXPECT_TRUE(isWhole) << "all of it is read and judged";
-    const glm::ivec2 size = photographs.size();
+    const glm::ivec2 size = photographs->size();
     std::vector<std::vector<uint8_t>> verdicts;
     for (size_t light = 0; light < 8; ++light) {
-        verdicts.push_back(photographs.verdicts(light));
+        verdicts.push_back(photographs->verdicts(light));
     }
     std::array<size_t, kVerdictKinds.size()> counts{};
     for (size_t pixel = 0; pixel < static_cast<size_t>(size.x * size.y); ++pixel) {
         std::vector<uint8_t> wanted(8, kNotJudged);
-        for (const PixelObservation& observation : photographs.observations(pixel)) {
+        for (const PixelObservation& observation : photographs->observations(pixel)) {
             wanted[observation.light] = observation.verdict;
             ++counts[observation.verdict];
             // Attached shadow is the one that follows from the normal alone.
