@@ -40,11 +40,10 @@ Segmentation findSegmentation(PreparedCapture& prepared, const Capture& capture,
     rough.method = NormalMethod::consensus;
     const ChosenMethod consensus = chooseMethod(prepared.reconciled.sample, prepared.checked, rough);
     const Segmentation whole = oneMaterial(capture);
-    NormalEstimate unused = startEstimate(prepared, consensus);
     std::vector<PixelTraits> traits;
     BlockWalk walk(prepared.blocks, clock, progress, "materials");
     while (const Observations* block = walk.next()) {
-        const NormalBlock normals = estimateNormals(prepared, consensus, whole, *block, false, unused);
+        const NormalBlock normals = estimateNormals(prepared, consensus, whole, *block);
         const std::vector<PixelTraits> more =
             pixelTraits(*block, normals, prepared.rig.lights, options.samples.threads);
         traits.insert(traits.end(), more.begin(), more.end());
@@ -52,30 +51,29 @@ Segmentation findSegmentation(PreparedCapture& prepared, const Capture& capture,
     return foundSegmentation(traits, capture, options.segment);
 }
 
-BrdfInterpolant interpolate(const BrdfSamples& samples, const AcquireOptions& options, InterpolationChoice& choice)
-{
-    choice.options = options.interpolation;
-    if (options.interpolation.automatic) {
-        choice = chooseInterpolation(samples, options.interpolation);
-    }
-    return makeInterpolant(samples, choice.options);
-}
-
-std::vector<BakedMaterial> bakeAll(const std::vector<BrdfSamples>& samples, const Segmentation& segmentation,
-                                   const AcquireOptions& options, std::vector<MaterialFit>& fits)
-{
+struct BakedMaterials {
     std::vector<BakedMaterial> materials;
+    std::vector<InterpolationChoice> interpolations; // one a material
+};
+
+BakedMaterials bakeAll(const std::vector<BrdfSamples>& samples, const Segmentation& segmentation,
+                       const AcquireOptions& options)
+{
+    const InterpolationOptions& asked = options.interpolation;
+    BakedMaterials all;
     for (size_t i = 0; i < samples.size(); ++i) {
         const std::string& name = segmentation.regions[i].name;
         if (samples.size() > 1 && samples[i].size() == 0) {
             throw Error("", fmt::format("material {} has no observation to measure a BRDF from", name),
                         "lit, unsaturated pixels with normals");
         }
-        BrdfInterpolant interpolant = interpolate(samples[i], options, fits.emplace_back().interpolation);
+        all.interpolations.push_back(asked.automatic ? chooseInterpolation(samples[i], asked)
+                                                     : InterpolationChoice{.options = asked});
+        BrdfInterpolant interpolant = makeInterpolant(samples[i], all.interpolations.back().options);
         BakedBrdf baked = bakeBrdf(samples[i], interpolant, options.bake);
-        materials.push_back({name, std::move(interpolant), std::move(baked), glm::vec3(1)});
+        all.materials.push_back({name, std::move(interpolant), std::move(baked), glm::vec3(1)});
     }
-    return materials;
+    return all;
 }
 
 // Refits every pixel's factor to its material's table; the tables take what the factors' mean comes to.
@@ -131,8 +129,8 @@ NormalsAndSamples estimateAndSample(PreparedCapture& prepared, const Capture& ca
     NormalsAndSamples result{startEstimate(prepared, chosen), startSamples(capture, segmentation)};
     BlockWalk walk(prepared.blocks, clock, progress, "normals");
     while (const Observations* block = walk.next()) {
-        const NormalBlock normals =
-            estimateNormals(prepared, chosen, segmentation, *block, options.keepVerdicts, result.estimate);
+        const NormalBlock normals = estimateNormals(prepared, chosen, segmentation, *block);
+        storeNormals(*block, normals, options.keepVerdicts, result.estimate);
         clock.enter("samples");
         gatherSamples(*block, normals, prepared.rig.lights, segmentation, options, result.gathered);
     }
@@ -150,13 +148,13 @@ Acquisition acquire(const Capture& capture, const AcquireOptions& options, const
     auto [estimate, gathered] = estimateAndSample(prepared, capture, result.segmentation, options, clock, progress);
     progress("baking", 0);
     clock.enter("baking");
-    std::vector<BakedMaterial> baked = bakeAll(gathered.samples, result.segmentation, options, result.fits);
+    auto [baked, interpolations] = bakeAll(gathered.samples, result.segmentation, options);
     Image albedo = finishAlbedo(capture, prepared, estimate.normals, result.segmentation.labels,
                                 std::move(gathered.albedo), baked, options.bake.threads, clock, progress);
     clock.enter("model");
     ReducedMaterials reduced = reduceMaterials(std::move(baked), options.ladder);
     for (size_t i = 0; i < reduced.ladders.size(); ++i) {
-        result.fits[i].ladder = std::move(reduced.ladders[i]);
+        result.fits.push_back({interpolations[i], std::move(reduced.ladders[i])});
     }
     result.surface = surfaceOf(capture, prepared, std::move(estimate.normals), result.segmentation.labels,
                                std::move(albedo), std::move(reduced.materials));

@@ -10,38 +10,6 @@ namespace nacre {
 
 namespace {
 
-void storeNormals(const Observations& block, const NormalBlock& estimated, bool keepVerdicts, NormalEstimate& result)
-{
-    const size_t n = block.lightCount;
-    for (size_t p = 0; p < block.pixels.size(); ++p) {
-        const PixelNormal& pixel = estimated.pixels[p];
-        result.normals.normals[block.pixels[p]] = pixel.confidence > 0 ? pixel.normal : glm::vec3(0);
-        result.normals.confidence[block.pixels[p]] = pixel.confidence;
-        result.pixelsWithoutNormal += pixel.confidence <= 0;
-        for (size_t i = 0; i < n; ++i) {
-            VerdictCounts& counts = result.verdicts[i];
-            switch (estimated.verdicts[p * n + i]) {
-            case Verdict::used:
-                ++counts.used;
-                break;
-            case Verdict::shadow:
-                ++counts.shadow;
-                break;
-            case Verdict::highlight:
-                ++counts.highlight;
-                break;
-            case Verdict::saturated:
-                ++counts.saturated;
-                break;
-            }
-        }
-    }
-    if (keepVerdicts) {
-        result.pixels.insert(result.pixels.end(), block.pixels.begin(), block.pixels.end());
-        result.everyVerdict.insert(result.everyVerdict.end(), estimated.verdicts.begin(), estimated.verdicts.end());
-    }
-}
-
 // A few thousand pixels spread evenly over the whole mask.
 Observations sampleOf(ObservationBlocks& blocks)
 {
@@ -135,12 +103,43 @@ NormalEstimate startEstimate(const PreparedCapture& prepared, const ChosenMethod
 }
 
 NormalBlock estimateNormals(const PreparedCapture& prepared, const ChosenMethod& chosen, const Segmentation& materials,
-                            const Observations& block, bool keepVerdicts, NormalEstimate& estimate)
+                            const Observations& block)
 {
     NormalBlock normals = estimateBlock(chosen, materials, block, prepared.rig.lights);
     dropMarked(prepared.blocks.capture(), block, normals);
-    storeNormals(block, normals, keepVerdicts, estimate);
     return normals;
+}
+
+void storeNormals(const Observations& block, const NormalBlock& normals, bool keepVerdicts, NormalEstimate& estimate)
+{
+    const size_t n = block.lightCount;
+    for (size_t p = 0; p < block.pixels.size(); ++p) {
+        const PixelNormal& pixel = normals.pixels[p];
+        estimate.normals.normals[block.pixels[p]] = pixel.confidence > 0 ? pixel.normal : glm::vec3(0);
+        estimate.normals.confidence[block.pixels[p]] = pixel.confidence;
+        estimate.pixelsWithoutNormal += pixel.confidence <= 0;
+        for (size_t i = 0; i < n; ++i) {
+            VerdictCounts& counts = estimate.verdicts[i];
+            switch (normals.verdicts[p * n + i]) {
+            case Verdict::used:
+                ++counts.used;
+                break;
+            case Verdict::shadow:
+                ++counts.shadow;
+                break;
+            case Verdict::highlight:
+                ++counts.highlight;
+                break;
+            case Verdict::saturated:
+                ++counts.saturated;
+                break;
+            }
+        }
+    }
+    if (keepVerdicts) {
+        estimate.pixels.insert(estimate.pixels.end(), block.pixels.begin(), block.pixels.end());
+        estimate.everyVerdict.insert(estimate.everyVerdict.end(), normals.verdicts.begin(), normals.verdicts.end());
+    }
 }
 
 void finishEstimate(const Capture& capture, NormalEstimate& estimate)
@@ -161,7 +160,7 @@ NormalEstimate estimateCaptureNormals(const Capture& capture, const AcquireOptio
     const Segmentation whole = oneMaterial(capture);
     BlockWalk walk(prepared.blocks, clock, progress, "normals");
     while (const Observations* block = walk.next()) {
-        estimateNormals(prepared, chosen, whole, *block, options.keepVerdicts, estimate);
+        storeNormals(*block, estimateNormals(prepared, chosen, whole, *block), options.keepVerdicts, estimate);
     }
     finishEstimate(capture, estimate);
     estimate.times = clock.finish();

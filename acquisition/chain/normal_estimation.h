@@ -42,10 +42,10 @@ PreparedCapture prepareCapture(const Capture& capture, const AcquireOptions& opt
 
 // An estimate without normals yet: what was found out before any.
 NormalEstimate startEstimate(const PreparedCapture& prepared, const ChosenMethod& chosen);
-// One block of it. Pixels that the capture marks to be smoothed over get none, so no samples either. Answers the
-// block's normals.
+// A block's normals. Pixels that the capture marks to be smoothed over get none, so no samples either.
 NormalBlock estimateNormals(const PreparedCapture& prepared, const ChosenMethod& chosen, const Segmentation& materials,
-                            const Observations& block, bool keepVerdicts, NormalEstimate& estimate);
+                            const Observations& block);
+void storeNormals(const Observations& block, const NormalBlock& normals, bool keepVerdicts, NormalEstimate& estimate);
 // What can be said of the whole map, and marked pixels smoothed in.
 void finishEstimate(const Capture& capture, NormalEstimate& estimate);
 
