@@ -70,7 +70,7 @@ int amplification(const Image& difference)
     std::vector<float> values;
     std::copy_if(difference.values.begin(), difference.values.end(), std::back_inserter(values),
                  [](float v) { return v > 0; });
-    const float high = values.empty() ? 1.0f : quantile(values, 0.99);
+    const float high = peakOf(values);
     int factor = 1;
     while (factor < 64 && 2.0f * static_cast<float>(factor) * high <= 1) {
         factor *= 2;

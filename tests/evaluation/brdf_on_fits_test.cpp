@@ -100,7 +100,7 @@ TransferError transferError(const BrdfInterpolant& interpolant, const TableDomai
     const auto brightest = static_cast<size_t>(std::max_element(values.begin(), values.end()) - values.begin());
     TransferError error;
     error.peakRatio = shown[brightest / 3][static_cast<int>(brightest % 3)] / values[brightest];
-    const float peak = quantile(values, 0.99);
+    const float peak = peakOf(values);
     double sum = 0;
     for (size_t i = 0; i < expected.size(); ++i) {
         const glm::vec3 miss = glm::clamp(expected[i] / peak, 0.0f, 1.0f) - glm::clamp(shown[i] / peak, 0.0f, 1.0f);
