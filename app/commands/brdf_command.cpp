@@ -165,7 +165,7 @@ constexpr const char* kExample =
     "  nacre brdf horse.nacre -o horse-brdf\n"
     "  nacre brdf alum-bronze.binary --against merl-abc:alum-bronze --fits FOLDER\n"
     "  nacre brdf paper_white_rgb.bsdf --export paper.binary --export paper.ktx2\n"
-    "Materials: NAME.nacre[#MATERIAL]  FILE.binary (MERL)  FILE.bsdf (RGL, isotropic RGB)  FILE.exr (our table)\n"
+    "Materials: NAME.nacre[#MATERIAL]  FILE.binary (MERL)  FILE.bsdf (RGL, isotropic RGB)  FILE.exr (Nacre's table)\n"
     "  FILE.brdf (Cornell's scattered measurements)  lambert:R,G,B  ggx:diffuse=R,G,B;specular=R,G,B;alpha=A\n"
     "  merl-abc:NAME  merl-sgd:NAME";
 
@@ -255,21 +255,21 @@ void runBrdf(const BrdfArguments& arguments)
 void addBrdfCommand(CLI::App& app)
 {
     auto arguments = std::make_shared<BrdfArguments>();
-    CLI::App* command = app.add_subcommand("brdf", "What a measured material or a model holds: audit, pictures, files");
-    command->add_option("MATERIAL", arguments->source, "File, surface or model, see below")->required();
-    command->add_option("--against", arguments->against, "Compare to this material");
+    CLI::App* command = app.add_subcommand("brdf", "Audit, pictures, comparison and conversion of a material");
+    command->add_option("MATERIAL", arguments->source, "File, surface or model; see below")->required();
+    command->add_option("--against", arguments->against, "Material to compare with, like MATERIAL");
     command->add_option("--fits", arguments->fits,
-                        "Folder of merl_abc_params.csv and merl_sgd_params.csv "
-                        "[environment variable NACRE_FITS_DIR]");
+                        "Folder of merl_abc_params.csv and merl_sgd_params.csv (default: $NACRE_FITS_DIR)");
     command->add_option("-o,--output", arguments->pictures, "Folder for slices.png and sphere.png");
     command
-        ->add_option("--export", arguments->exports,
-                     "Write .binary (MERL), .ktx2 (3D texture, 16-bit floats) or .exr (our table). Repeatable")
+        ->add_option(
+            "--export", arguments->exports,
+            "File to write: .binary (MERL), .ktx2 (3D texture, 16-bit floats) or .exr (Nacre's table). Repeatable")
         ->allow_extra_args(false);
-    command->add_option("--json", arguments->json, "Write the figures to this file too");
-    command->add_option("--threads", arguments->threads, "Threads (0: all)")->capture_default_str();
-    command->add_flag("--force", arguments->force, "Replace outputs that exist");
-    command->add_flag("--quiet", arguments->quiet, "Print nothing");
+    command->add_option("--json", arguments->json, "File for the figures as JSON");
+    command->add_option("--threads", arguments->threads, "Number of threads (default: all)");
+    command->add_flag("--force", arguments->force, "Replacement of existing outputs");
+    command->add_flag("--quiet", arguments->quiet, "No messages");
     command->footer(kExample);
     command->callback([arguments] { runBrdf(*arguments); });
 }

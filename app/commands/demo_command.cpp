@@ -178,10 +178,11 @@ void addDemoCommand(CLI::App& app)
     CLI::App* command = app.add_subcommand("demo", "The whole chain on a small capture that is made on the spot");
     command->add_option("-o,--output", arguments->folder, "Folder for the capture, the surface and demo.png")
         ->capture_default_str();
-    command->add_option("--device", arguments->device, "Vulkan device by number or name (default: the first)");
-    command->add_option("--threads", arguments->threads, "Threads (default: all)");
-    command->add_flag("--force", arguments->force, "Replace the folder");
-    command->add_flag("--quiet", arguments->quiet, "Print the picture's path alone");
+    command->add_option("--device", arguments->device,
+                        "Vulkan device: number or part of its name in nacre info (default: the first)");
+    command->add_option("--threads", arguments->threads, "Number of threads (default: all)");
+    command->add_flag("--force", arguments->force, "Replacement of an existing folder");
+    command->add_flag("--quiet", arguments->quiet, "No messages but the picture's path");
     command->footer("Example:\n  nacre demo -o /tmp/nacre-demo");
     command->callback([arguments] { runDemo(*arguments); });
 }

@@ -125,8 +125,9 @@ void runInfo(const std::filesystem::path& path)
 void addInfoCommand(CLI::App& app)
 {
     auto path = std::make_shared<std::filesystem::path>();
-    CLI::App* command = app.add_subcommand("info", "The Vulkan devices; what a surface, a capture or a .ptm holds");
-    command->add_option("PATH", *path, "Folder NAME.nacre, folder of photographs or FILE.ptm (default: the devices)");
+    CLI::App* command = app.add_subcommand("info", "Vulkan devices; contents of a surface, a capture or a .ptm");
+    command->add_option("PATH", *path,
+                        "Folder NAME.nacre, folder of photographs, or FILE.ptm (default: Vulkan devices)");
     command->footer("Example:\n  nacre info\n  nacre info horse.nacre");
     command->callback([path] { runInfo(*path); });
 }

@@ -31,7 +31,7 @@ constexpr const char* kExample =
     "'ggx:diffuse=0.03,0.03,0.03;alpha=0.1'\n"
     "  nacre synth plastic --material merl-sgd:red-plastic --fits FOLDER --exposures 1,0.25,0.0625\n"
     "Materials: lambert:R,G,B  ggx:diffuse=R,G,B;specular=R,G,B;alpha=A  merl-abc:NAME  merl-sgd:NAME\n"
-    "  FILE.binary (MERL)  FILE.bsdf (RGL, isotropic RGB)  FILE.exr (our table)";
+    "  FILE.binary (MERL)  FILE.bsdf (RGL, isotropic RGB)  FILE.exr (Nacre's table)";
 
 void describe(const SynthArguments& arguments, const SynthScene& scene)
 {

@@ -65,23 +65,26 @@ void addTargetCommand(CLI::App& app)
     command
         ->add_option("SOURCE", arguments->source,
                      "Mesh (.obj, .ply, .gltf, .glb, .stl), height map (one channel), normal map, NAME.nacre, or "
-                     "make:NAME for one of our own")
+                     "make:NAME, a shape that is generated")
         ->required();
-    command->add_option("-o,--output", arguments->output, "The surface to write, NAME.nacre")->required();
-    command->add_option("--from", arguments->from, "Of a mesh: x,y,z towards the distant viewer [0,0,1]");
-    command->add_option("--up", arguments->up, "Of a mesh: x,y,z that is up in the picture [0,1,0]");
+    command->add_option("-o,--output", arguments->output, "Surface to write, NAME.nacre")->required();
+    command->add_option("--from", arguments->from, "Direction x,y,z from a mesh towards the distant viewer [0,0,1]");
+    command->add_option("--up", arguments->up,
+                        "Direction x,y,z of a mesh that is up in the picture [0,1,0; seen along y: 0,0,-1]");
     command->add_option("--size", arguments->size,
-                        "WxH pixels (default: 1024x1024, pictures and surfaces their own size)");
+                        "Size in pixels, WxH (default: 1024x1024; of pictures and surfaces their own)");
     command->add_option("--normal-map", arguments->normalMap,
-                        "Of a mesh with UVs: tangent-space map for all parts, in place of its materials'");
+                        "Tangent-space normal map for all parts of a mesh with UVs (default: those of its materials)");
     command->add_option("--normal-y", arguments->normalY, "Green of a normal map: gl (up) or dx (down) [gl]");
-    command->add_option("--height-scale", arguments->heightScale,
-                        "Of a height map: pixels from black to white, or a share of the width (default: 5%; floats "
-                        "are pixels)");
-    command->add_option("--device", arguments->device, "Vulkan device: number or part of its name, see nacre info");
-    command->add_option("--threads", arguments->threads, "Of make: (default: all)");
-    command->add_flag("--force", arguments->force, "Replace an output that exists");
-    command->add_flag("--quiet", arguments->quiet, "Print warnings alone");
+    command->add_option(
+        "--height-scale", arguments->heightScale,
+        "Height from black to white of a height map: pixels, or a share of the width in % (default: 5%; "
+        "floats are pixels)");
+    command->add_option("--device", arguments->device,
+                        "Vulkan device: number or part of its name in nacre info (default: the first)");
+    command->add_option("--threads", arguments->threads, "Number of threads for make:NAME (default: all)");
+    command->add_flag("--force", arguments->force, "Replacement of an existing output");
+    command->add_flag("--quiet", arguments->quiet, "No messages but warnings");
     command->footer("Example:\n  nacre target statue.obj --from 1,0.2,1 -o statue.nacre\n"
                     "  nacre render horse.nacre --onto statue.nacre --light=-1,1,1 -o statue.png\n"
                     "  nacre target cloth_height.png --height-scale 12 -o cloth.nacre\n"

@@ -50,9 +50,9 @@ std::string lightSection(const ReportSubject& subject)
 {
     const Rig& rig = subject.acquisition.estimate.rig;
     const bool shading = !rig.shadingDisagreement.empty();
-    std::vector<std::string> heads = {"photograph", "polar", "azimuth", "red", "green", "blue"};
+    std::vector<std::string> heads = {"photograph", "off the view", "around it", "red", "green", "blue"};
     if (shading) {
-        heads.emplace_back("shading off by");
+        heads.emplace_back("matt sphere off by");
     }
     std::string rows;
     for (size_t i = 0; i < rig.lights.size(); ++i) {
@@ -68,13 +68,14 @@ std::string lightSection(const ReportSubject& subject)
         }
         rows += tableRow(cells);
     }
-    return heading("Lights") +
-           paragraph(fmt::format("Directions: {}. Irradiances: {}. Condition of the directions: {:.1f}.",
+    return heading("Directions and intensities of the lights") +
+           paragraph(fmt::format("Directions: {}. Irradiances: {}. Condition number of the directions: {:.1f} "
+                                 "(well-spread lights have 1 to 10).",
                                  rig.directionsFrom, rig.irradiancesFrom, rig.condition)) +
            lightFigure(subject.review.photographs) +
            paragraph("Where the lights stand as the object sees them: the viewer in the middle, rings at 30, 60 and 90 "
-                     "degrees off the view. Blue: given; orange: they judge.") +
-           folded("Directions in degrees, irradiances", tableOf(heads, rows));
+                     "degrees off the view. Blue: measured with; orange: held back to judge the result.") +
+           folded("Directions in degrees, irradiances in the unit of the photographs", tableOf(heads, rows));
 }
 
 // How the observations under each light were judged.
@@ -93,8 +94,9 @@ std::string verdictSection(const ReportSubject& subject)
                          {share(v.highlight), kHighlightColour},
                          {share(v.saturated), kSaturatedColour}}});
     }
-    return heading("Verdicts") +
-           paragraph("How the pixels under each light were judged; the figure is the share that the normals explain.") +
+    return heading("Shadows and highlights found") +
+           paragraph("How the object's pixels were judged in each photograph; the number is the share that the normals "
+                     "explain.") +
            barFigure(bars, 1,
                      {{kUsedColour, "explained"},
                       {kShadowColour, "shadow"},
@@ -118,14 +120,15 @@ std::string predictionSection(const ReportSubject& subject)
                         {{errorOf(p.psnr), own}}});
         longest = std::max({longest, errorOf(p.psnr), p.heldOutPsnr ? errorOf(*p.heldOutPsnr) : 0});
     }
-    return heading("Prediction of every photograph") +
-           paragraph(
-               fmt::format("Root mean square error of the radiance under its own light; the longest bar is {:.2g} "
-                           "% of the peak. {}",
-                           100 * longest, subject.review.heldOut)) +
-           barFigure(
-               bars, longest,
-               {{kShadowColour, "not seen: prediction"}, {kSeenColour, "seen: fit"}, {kSaturatedColour, "left out"}});
+    return heading("Error of every photograph's re-rendering") +
+           paragraph(fmt::format(
+               "Root mean square error of the radiance under the photograph's own light; the longest bar is {:.2g} % "
+               "of the peak, the number is the PSNR in dB. {}",
+               100 * longest, subject.review.heldOut)) +
+           barFigure(bars, longest,
+                     {{kShadowColour, "held back: prediction"},
+                      {kSeenColour, "measured with: fit"},
+                      {kSaturatedColour, "left out"}});
 }
 
 struct ReportPicture {
@@ -213,12 +216,12 @@ std::string overview(const ReportSubject& subject)
     }
     const bool absolute = subject.acquisition.surface.scale == RadianceScale::absolute;
     std::string html = listOf(
-        {{"photographs", fmt::format("{} of {}x{}, {} given", capture.photographs.size(), capture.width, capture.height,
-                                     estimate.given.size())},
+        {{"photographs", fmt::format("{} of {}x{} pixels, {} used", capture.photographs.size(), capture.width,
+                                     capture.height, estimate.given.size())},
          {"object", fmt::format("{} pixels, {} without a normal", capture.maskPixels, estimate.pixelsWithoutNormal)},
-         {"normals by", nameOf(estimate.report.method)},
+         {"method of the normals", nameOf(estimate.report.method)},
          {"scale of the BRDF", absolute ? "absolute, 1/sr" : "relative, up to one factor"},
-         {"seconds", fmt::format("{:.1f}", seconds)}});
+         {"time", fmt::format("{:.1f} seconds", seconds)}});
     for (const auto* findings : {&estimate.rig.warnings, &estimate.report.findings}) {
         for (const Finding& finding : *findings) {
             const bool standsOut = isWarning(finding.code) || finding.code == FindingCode::photographsLeftOut;
@@ -260,21 +263,22 @@ std::string ladderTable(const ModelLadder& ladder)
     }
     const std::string table = tableOf({"model", "bytes", "PSNR, dB", "ns a lookup", ""}, rows);
     if (!ladder.taken) {
-        return paragraph("No smaller model is good enough: the full table stays.") + folded("What was tried", table);
+        return paragraph("No smaller model is good enough: the full table stays.") + folded("Models tried", table);
     }
     const LadderStep& taken = ladder.steps[*ladder.taken];
     return paragraph(fmt::format("Taken: {}, {} bytes, {:.1f} dB against the interpolated samples.", taken.description,
                                  taken.bytes, taken.psnr)) +
-           folded("What was tried, as far as it was better than everything smaller", table);
+           folded("Models tried that are better than every smaller one", table);
 }
 
 std::string materials(const ReportSubject& subject, const std::vector<ReportPicture>& pictures)
 {
     const Acquisition& acquisition = subject.acquisition;
     std::string html =
-        heading("BRDF") +
-        paragraph(fmt::format("{} observations used; left out: {} in shadow or grazing, {} saturated.",
-                              acquisition.samples.used, acquisition.samples.shadowed, acquisition.samples.saturated)) +
+        heading("Reflectance (BRDF)") +
+        paragraph(fmt::format(
+            "{} observations (of one pixel under one light) used; left out: {} in shadow or grazing, {} saturated.",
+            acquisition.samples.used, acquisition.samples.shadowed, acquisition.samples.saturated)) +
         sheetOf(pictures, "sheet large");
     for (size_t i = 0; i < acquisition.surface.materials.size(); ++i) {
         const Material& material = acquisition.surface.materials[i];
@@ -301,10 +305,10 @@ std::string reportOf(const ReportSubject& subject)
         photographs.push_back(pictures.photograph(photograph.thumbnail, photograph.name));
     }
     std::string html = pageHead("Nacre: " + subject.capture.name, subject.capture.name) + overview(subject);
-    html += heading("Normals") + sheetOf(pictures.ofSurface(subject.capture, subject.acquisition), "sheet large") +
-            predictionSection(subject) +
-            materials(subject, pictures.ofMaterials(subject.acquisition.surface.materials)) + lightSection(subject) +
-            verdictSection(subject) + heading("Photographs") + sheetOf(photographs, "sheet");
+    html +=
+        heading("Surface normals") + sheetOf(pictures.ofSurface(subject.capture, subject.acquisition), "sheet large") +
+        predictionSection(subject) + materials(subject, pictures.ofMaterials(subject.acquisition.surface.materials)) +
+        lightSection(subject) + verdictSection(subject) + heading("Photographs") + sheetOf(photographs, "sheet");
     return html + kPageEnd;
 }
 
