@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # viewer_figures.sh [NACRE]: frames a second in a window of 1280x720 while one of four lights is dragged, and what share
-# of a core the window takes when nothing moves. Prints the figures of docs/viewer.md.
+# of a core the window takes when nothing moves. Prints the figures of the window in docs/results.md.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 . scripts/window_driver.sh
