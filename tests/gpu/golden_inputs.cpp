@@ -123,7 +123,7 @@ void writeShaded(const fs::path& folder)
             surface.albedo.setRgb(x, y, albedoFactor(x, y));
         }
     }
-    surface.lights = ringOfLights(9);
+    surface.lights = capturedRing(9);
     surface.residual = smoothResidual(surface);
     saveSurface(folder, surface, false);
 }

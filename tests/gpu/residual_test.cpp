@@ -17,7 +17,7 @@ namespace {
 Scene plainScene(int width = 96, int height = 64, int components = 6)
 {
     Scene scene = glossyScene(width, height);
-    scene.surface.lights = ringOfLights(9);
+    scene.surface.lights = capturedRing(9);
     scene.surface.residual = anyResidual(scene.surface, components);
     scene.lights = capOfLights(3, 50);
     return scene;

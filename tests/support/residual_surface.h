@@ -11,7 +11,7 @@
 namespace nacre {
 
 // A ring of lights about one from the front, all within 40 degrees of it.
-inline std::vector<CapturedLight> ringOfLights(int count)
+inline std::vector<CapturedLight> capturedRing(int count)
 {
     std::vector<CapturedLight> lights = {{"0", Light{}}};
     for (int i = 1; i < count; ++i) {
@@ -65,7 +65,7 @@ inline Surface residualSurface(int size = 8)
     }
     const LambertGgx matt{.diffuse = glm::vec3(0.3f), .specular = glm::vec3(0)};
     Surface surface = transferredSurface(normals, Material{"matt", tabulatedBrdf(matt), {}});
-    surface.lights = ringOfLights(9);
+    surface.lights = capturedRing(9);
     surface.residual = anyResidual(surface, 6);
     return surface;
 }
