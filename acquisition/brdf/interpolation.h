@@ -3,7 +3,6 @@
 #include <string>
 
 #include "acquisition/brdf/brdf_samples.h"
-#include "acquisition/brdf/sample_embedding.h"
 
 namespace nacre {
 

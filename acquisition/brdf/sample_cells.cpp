@@ -5,7 +5,7 @@
 
 #include <glm/geometric.hpp>
 
-#include "acquisition/brdf/sample_embedding.h"
+#include "acquisition/brdf/brdf_samples.h"
 #include "acquisition/normals/intensities.h"
 #include "engine/files/parallel_for.h"
 

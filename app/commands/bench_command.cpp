@@ -14,7 +14,6 @@
 #include "engine/files/whole_file.h"
 #include "engine/gpu/floor_pass.h"
 #include "engine/gpu/renderer.h"
-#include "evaluation/rendering/bake_benchmark.h"
 #include "evaluation/rendering/bench_surfaces.h"
 
 namespace nacre {

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/loading/rig_argument.h"
+#include "engine/loading/scene_loading.h"
 #include "engine/surface/surface.h"
 
 namespace nacre {

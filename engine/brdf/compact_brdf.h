@@ -1,13 +1,32 @@
 #pragma once
+#include <cstddef>
 #include <string>
 #include <variant>
 #include <vector>
 
+#include <glm/vec3.hpp>
+
 #include "engine/brdf/brdf_models.h"
 #include "engine/brdf/brdf_table.h"
-#include "engine/brdf/texel_format.h"
 
 namespace nacre {
+
+// How a table's f is kept in memory on a device; coverage is apart.
+enum class TexelFormat {
+    rgba32f,  // 16 bytes
+    rgba16f,  // 8 bytes: 11 bits of precision to 65504
+    e5b9g9r9, // 4 bytes: three 9-bit mantissas under one exponent, to 65408 (Vulkan, E5B9G9R9_UFLOAT_PACK32)
+};
+
+std::string nameOf(TexelFormat format);                   // "RGBA32F", "RGBA16F", "E5B9G9R9"
+TexelFormat texelFormatFromName(const std::string& name); // throws Error (data)
+size_t bytesPerTexel(TexelFormat format);
+
+// Rounded to 16 bits; +-65504 at most.
+float throughHalf(float value);
+
+// What is left of a value once the format has held it; not negative, finite.
+glm::vec3 quantised(const glm::vec3& value, TexelFormat format);
 
 // Smaller descriptions of a material than its full table, each enough to make a table from (expandedTable).
 

@@ -8,7 +8,7 @@
 
 #include "engine/files/error.h"
 #include "engine/scene/scene_residual.h"
-#include "engine/surface/sampled_pixels.h"
+#include "engine/surface/surface.h"
 #include "false_colour_frag.h"
 #include "shared/layout.h"
 

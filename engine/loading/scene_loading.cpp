@@ -1,12 +1,18 @@
 #include "engine/loading/scene_loading.h"
 
+#include <charconv>
+#include <filesystem>
+
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
 #include "engine/files/error.h"
 #include "engine/gpu/texture.h"
-#include "engine/loading/rig_argument.h"
+#include "engine/lights/environment.h"
+#include "engine/lights/light_files.h"
+#include "engine/lights/light_rigs.h"
 #include "engine/materials/material_specification.h"
 #include "engine/scene/coverage.h"
 #include "engine/scene/scene_residual.h"
@@ -14,8 +20,35 @@
 #include "engine/target/mesh_file.h"
 
 namespace nacre {
+namespace fs = std::filesystem;
 
 namespace {
+
+LightRig rigOfFile(const fs::path& file)
+{
+    const std::string extension = file.extension().string();
+    if (extension == ".exr" || extension == ".hdr") {
+        return {file.stem().string(), lightsFromEnvironment(loadEnvironment(file), kEnvironmentLights)};
+    }
+    LightRig rig{file.stem().string(), loadLightFile(file).lights};
+    if (rig.lights.empty()) {
+        throw Error(file, "holds no light", "lights as nacre calibrate writes them");
+    }
+    return rig;
+}
+
+LightRig lightOfRig(const fs::path& file, const std::string& digits)
+{
+    LightRig rig = rigOfFile(file);
+    size_t number = 0;
+    const char* end = digits.data() + digits.size();
+    const auto [next, error] = std::from_chars(digits.data(), end, number);
+    if (error != std::errc() || next != end || number < 1 || number > rig.lights.size()) {
+        throw Error(file, fmt::format("has no light #{}", digits), fmt::format("#1 to #{}", rig.lights.size()),
+                    Error::kUsage);
+    }
+    return {fmt::format("{}-{}", rig.name, number), {rig.lights[number - 1]}};
+}
 
 constexpr int kMostEnvironmentLights = 100000;
 
@@ -96,6 +129,21 @@ std::string percentage(double share)
 }
 
 } // namespace
+
+LightRig rigFromArgument(const std::string& text)
+{
+    if (fs::is_regular_file(text)) {
+        return rigOfFile(text);
+    }
+    const size_t mark = text.rfind('#');
+    if (mark != std::string::npos && fs::is_regular_file(text.substr(0, mark))) {
+        return lightOfRig(text.substr(0, mark), text.substr(mark + 1));
+    }
+    if (fs::path(text).has_extension()) {
+        throw Error(text, "does not exist", fmt::format("a file of lights, or one of {}", fmt::join(rigNames(), ", ")));
+    }
+    return {text, lightsOfRig(text)};
+}
 
 void requireConsistent(const SceneDescription& scene)
 {

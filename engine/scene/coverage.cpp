@@ -5,7 +5,7 @@
 #include <glm/geometric.hpp>
 
 #include "engine/files/parallel_for.h"
-#include "engine/surface/sampled_pixels.h"
+#include "engine/surface/surface.h"
 
 namespace nacre {
 namespace {

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include <glm/mat3x3.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
@@ -36,5 +37,33 @@ struct Mesh {
 
     size_t triangleCount() const { return indices.size() / 3; }
 };
+
+struct MeshViewOptions {
+    glm::vec3 from{0, 0, 1}; // from the mesh towards the viewer, of any length
+    glm::vec3 up{0, 1, 0};   // what is up in the picture; not along `from`
+    int width = 1024;        // pixels
+    int height = 1024;
+};
+
+// A distant camera that sees all of a mesh, fitted into the picture.
+struct MeshView {
+    int width = 0;
+    int height = 0;
+    glm::dmat3 turn{1};       // from the mesh's axes to the camera's (x right, y up, z towards the viewer)
+    glm::dvec3 centre{0};     // camera axes; shown in the picture's middle, height 0
+    double pixelsPerUnit = 1; // of the mesh's length
+    double nearest = 0;       // largest height, pixels
+    double farthest = 0;      // smallest height
+
+    // x right and y down in pixels from the picture's top left corner, z = height in pixels towards the viewer.
+    glm::dvec3 pixelPoint(const glm::vec3& position) const
+    {
+        const glm::dvec3 p = pixelsPerUnit * (turn * glm::dvec3(position) - centre);
+        return {0.5 * width + p.x, 0.5 * height - p.y, p.z};
+    }
+};
+
+// Throws Error (usage) where up lies along from, Error (data) where the mesh has no extent in the view.
+MeshView fittedView(const Mesh& mesh, const MeshViewOptions& options);
 
 } // namespace nacre

@@ -1,7 +1,7 @@
 #pragma once
 #include "engine/gpu/context.h"
 #include "engine/surface/surface.h"
-#include "engine/target/mesh_view.h"
+#include "engine/target/mesh.h"
 
 namespace nacre {
 

@@ -1,10 +1,14 @@
 #pragma once
 #include <span>
 
+#include "engine/files/image.h"
 #include "engine/gpu/texture.h"
-#include "engine/view_state/picture_blit.h"
+#include "engine/view_state/framing.h"
 
 namespace nacre {
+
+// A picture of codes in [0,1], 3 channels, to be copied into the window (kCopiedFrom), as the renderer's own are.
+Texture uploadPicture(const Context& context, const Image& codes);
 
 // Columns of a picture (kCopiedFrom), and where in the window they go: below all that ImGui draws.
 struct PlacedPicture {

@@ -1,7 +1,7 @@
 #pragma once
 #include <vector>
 
-#include "engine/viewer/swapchain.h"
+#include "engine/viewer/window.h"
 
 namespace nacre {
 

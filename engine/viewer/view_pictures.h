@@ -1,5 +1,9 @@
 #pragma once
+#include <optional>
+#include <string>
+
 #include "engine/gpu/renderer.h"
+#include "engine/view_state/controls.h"
 #include "engine/viewer/scene_source.h"
 
 namespace nacre {
@@ -56,6 +60,24 @@ private:
     std::vector<Light> lights_;
     Display display_;
     float wipeAt_ = 1;
+};
+
+// A photograph or its difference to the render in the render's place, and figures of both.
+class PhotographComparison {
+public:
+    explicit PhotographComparison(const Context& context) : context_(context) {}
+
+    // Follows what the session asks for; `pictures` are drawn. Null photographs: none are at hand.
+    void update(const Session& session, const Photographs* photographs, ViewPictures& pictures);
+    const Texture* picture() const { return picture_ ? &*picture_ : nullptr; } // null: the render stays
+    const std::string& figures() const { return figures_; }
+
+private:
+    const Context& context_;
+    std::optional<Texture> picture_;
+    std::optional<std::pair<size_t, size_t>> compared_; // its photograph, and the render's number
+    Comparison by_ = Comparison::none;
+    std::string figures_;
 };
 
 } // namespace nacre

@@ -1,27 +1,54 @@
 #include "engine/viewer/viewer.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <thread>
 
 #include <fmt/format.h>
 #include <glm/common.hpp>
+#include <glm/geometric.hpp>
 #include <imgui.h>
 
 #include "engine/files/error.h"
 #include "engine/files/whole_file.h"
+#include "engine/gpu/renderer.h"
+#include "engine/gpu/texture.h"
 #include "engine/scene/scene_residual.h"
+#include "engine/surface/surface.h"
 #include "engine/viewer/background_loads.h"
-#include "engine/viewer/comparison.h"
 #include "engine/viewer/panels.h"
-#include "engine/viewer/picture_texture.h"
+#include "engine/viewer/placed_picture.h"
 #include "engine/viewer/session_input.h"
-#include "engine/viewer/thumbnails.h"
 #include "engine/viewer/ui_pass.h"
+#include "engine/viewer/view_pictures.h"
 
 namespace nacre {
-
 namespace {
+
+// The material on a ball, lit from the upper left, exposed by itself; codes. `size` in pixels.
+Image materialThumbnail(const Context& context, const Material& material, int size)
+{
+    Renderer renderer(context);
+    renderer.setPath(RenderPath::direct); // one small picture is not worth measuring the ball's size
+    renderer.setSurface(transferredSurface(sphereNormalMap(size), material));
+    const std::array lights = {Light{.direction = glm::normalize(glm::vec3(-0.4f, 0.5f, 0.8f))}};
+    renderer.setLights(lights);
+    renderer.setDisplay({.exposureStops = renderer.automaticExposure()});
+    return renderer.picture();
+}
+
+// A ball of the surface's most frequent material, to be lit as the surface is.
+Surface ballSurface(const Surface& surface, int size)
+{
+    std::array<size_t, 256> counts{};
+    for (const uint8_t label : surface.labels) {
+        ++counts[label];
+    }
+    const auto end = counts.begin() + static_cast<std::ptrdiff_t>(surface.materials.size());
+    const auto most = static_cast<size_t>(std::max_element(counts.begin(), end) - counts.begin());
+    return transferredSurface(sphereNormalMap(size), surface.materials[most]);
+}
 
 constexpr double kMostFramesPerSecond = 60; // FIFO does not hold every driver back
 constexpr float kPanelWidth = 300;          // units of layout

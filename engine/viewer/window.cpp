@@ -1,16 +1,17 @@
+#define GLFW_INCLUDE_VULKAN
 #include "engine/viewer/window.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
-#define GLFW_INCLUDE_VULKAN
 #include <GLFW/glfw3.h>
 
 #include "engine/files/error.h"
 #include "engine/gpu/check.h"
+#include "engine/gpu/texture.h"
 
 namespace nacre {
-
 namespace {
 
 static_assert(kKeyEscape == GLFW_KEY_ESCAPE && kKeyF12 == GLFW_KEY_F12 && GLFW_KEY_A == 'A');
@@ -88,6 +89,67 @@ void requireDisplay()
     if (glfwInit() != GLFW_TRUE) {
         throw Error({}, "there is no display for a window (" + lastProblem() + ")", "a graphical session");
     }
+}
+
+VkSurfaceCapabilitiesKHR capabilitiesOf(VkPhysicalDevice device, VkSurfaceKHR surface)
+{
+    VkSurfaceCapabilitiesKHR capabilities;
+    checkVulkan(vkGetPhysicalDeviceSurfaceCapabilitiesKHR(device, surface, &capabilities),
+                "vkGetPhysicalDeviceSurfaceCapabilitiesKHR");
+    return capabilities;
+}
+
+// One without a curve of its own: what is drawn are the display's codes already.
+VkSurfaceFormatKHR plainFormat(VkPhysicalDevice device, VkSurfaceKHR surface)
+{
+    uint32_t count = 0;
+    checkVulkan(vkGetPhysicalDeviceSurfaceFormatsKHR(device, surface, &count, nullptr), "surface formats");
+    std::vector<VkSurfaceFormatKHR> formats(count);
+    checkVulkan(vkGetPhysicalDeviceSurfaceFormatsKHR(device, surface, &count, formats.data()), "surface formats");
+    for (const VkFormat wanted : {VK_FORMAT_B8G8R8A8_UNORM, VK_FORMAT_R8G8B8A8_UNORM}) {
+        const auto found =
+            std::find_if(formats.begin(), formats.end(), [&](const auto& f) { return f.format == wanted; });
+        if (found != formats.end()) {
+            return *found;
+        }
+    }
+    throw Error({}, "the Vulkan device cannot show 8-bit codes in a window", "another device");
+}
+
+Owned<VkSemaphore, vkDestroySemaphore> makeSemaphore(VkDevice device)
+{
+    const VkSemaphoreCreateInfo info{.sType = VK_STRUCTURE_TYPE_SEMAPHORE_CREATE_INFO};
+    VkSemaphore semaphore = VK_NULL_HANDLE;
+    checkVulkan(vkCreateSemaphore(device, &info, nullptr, &semaphore), "vkCreateSemaphore");
+    return {device, semaphore};
+}
+
+VkExtent2D extentFor(const VkSurfaceCapabilitiesKHR& capabilities, const glm::ivec2& framebuffer)
+{
+    if (framebuffer.x <= 0 || framebuffer.y <= 0 || capabilities.maxImageExtent.width == 0) {
+        return {0, 0};
+    }
+    constexpr uint32_t kUndecided = 0xFFFFFFFF; // the swapchain sets the window's size
+    if (capabilities.currentExtent.width != kUndecided) {
+        return capabilities.currentExtent;
+    }
+    return {std::clamp(static_cast<uint32_t>(framebuffer.x), capabilities.minImageExtent.width,
+                       capabilities.maxImageExtent.width),
+            std::clamp(static_cast<uint32_t>(framebuffer.y), capabilities.minImageExtent.height,
+                       capabilities.maxImageExtent.height)};
+}
+
+Owned<VkImageView, vkDestroyImageView> viewOf(VkDevice device, VkImage image, VkFormat format)
+{
+    const VkImageViewCreateInfo info{
+        .sType = VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO,
+        .image = image,
+        .viewType = VK_IMAGE_VIEW_TYPE_2D,
+        .format = format,
+        .subresourceRange = {.aspectMask = VK_IMAGE_ASPECT_COLOR_BIT, .levelCount = 1, .layerCount = 1}};
+    VkImageView view = VK_NULL_HANDLE;
+    checkVulkan(vkCreateImageView(device, &info, nullptr, &view), "vkCreateImageView");
+    return {device, view};
 }
 
 } // namespace
@@ -187,6 +249,121 @@ WindowEvents Window::waitForEvents(double seconds)
 void Window::wake()
 {
     glfwPostEmptyEvent();
+}
+
+Swapchain::Swapchain(const Context& context, const Window& window)
+    : context_(context), window_(window), acquired_(makeSemaphore(context.device()))
+{
+    makeSurface();
+    format_ = plainFormat(context.physicalDevice(), surface_).format;
+    rebuild();
+}
+
+Swapchain::~Swapchain()
+{
+    clear();
+    vkDestroySurfaceKHR(context_.instance(), surface_, nullptr);
+}
+
+void Swapchain::makeSurface()
+{
+    surface_ = window_.surfaceFor(context_.instance());
+    VkBool32 presents = VK_FALSE;
+    checkVulkan(
+        vkGetPhysicalDeviceSurfaceSupportKHR(context_.physicalDevice(), context_.queueFamily(), surface_, &presents),
+        "vkGetPhysicalDeviceSurfaceSupportKHR");
+    if (!presents) {
+        vkDestroySurfaceKHR(context_.instance(), surface_, nullptr);
+        throw Error({}, "the Vulkan device " + context_.info().name + " cannot draw in this window",
+                    "another device");
+    }
+}
+
+void Swapchain::clear()
+{
+    checkVulkan(vkDeviceWaitIdle(context_.device()), "vkDeviceWaitIdle");
+    drawn_.clear();
+    views_.clear();
+    images_.clear();
+    if (swapchain_ != VK_NULL_HANDLE) {
+        vkDestroySwapchainKHR(context_.device(), swapchain_, nullptr);
+        swapchain_ = VK_NULL_HANDLE;
+    }
+    extent_ = {0, 0};
+}
+
+void Swapchain::rebuild()
+{
+    clear();
+    ++generation_;
+    const VkSurfaceCapabilitiesKHR capabilities = capabilitiesOf(context_.physicalDevice(), surface_);
+    extent_ = extentFor(capabilities, window_.framebufferSize());
+    if (isEmpty()) {
+        return;
+    }
+    const uint32_t most = capabilities.maxImageCount == 0 ? UINT32_MAX : capabilities.maxImageCount;
+    const VkSwapchainCreateInfoKHR info{.sType = VK_STRUCTURE_TYPE_SWAPCHAIN_CREATE_INFO_KHR,
+                                        .surface = surface_,
+                                        .minImageCount = std::min(capabilities.minImageCount + 1, most),
+                                        .imageFormat = format_,
+                                        .imageColorSpace = VK_COLOR_SPACE_SRGB_NONLINEAR_KHR,
+                                        .imageExtent = extent_,
+                                        .imageArrayLayers = 1,
+                                        .imageUsage =
+                                            VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT,
+                                        .preTransform = capabilities.currentTransform,
+                                        .compositeAlpha = VK_COMPOSITE_ALPHA_OPAQUE_BIT_KHR,
+                                        .presentMode = VK_PRESENT_MODE_FIFO_KHR,
+                                        .clipped = VK_TRUE};
+    checkVulkan(vkCreateSwapchainKHR(context_.device(), &info, nullptr, &swapchain_), "vkCreateSwapchainKHR");
+    uint32_t count = 0;
+    checkVulkan(vkGetSwapchainImagesKHR(context_.device(), swapchain_, &count, nullptr), "vkGetSwapchainImagesKHR");
+    images_.resize(count);
+    checkVulkan(vkGetSwapchainImagesKHR(context_.device(), swapchain_, &count, images_.data()),
+                "vkGetSwapchainImagesKHR");
+    for (VkImage image : images_) {
+        views_.push_back(viewOf(context_.device(), image, format_));
+        drawn_.push_back(makeSemaphore(context_.device()));
+    }
+}
+
+bool Swapchain::mustRebuild(VkResult result, const char* call)
+{
+    if (result == VK_ERROR_SURFACE_LOST_KHR) {
+        clear();
+        vkDestroySurfaceKHR(context_.instance(), surface_, nullptr);
+        surface_ = VK_NULL_HANDLE;
+        makeSurface();
+        return true;
+    }
+    if (result == VK_ERROR_OUT_OF_DATE_KHR) {
+        return true;
+    }
+    if (result != VK_SUBOPTIMAL_KHR) {
+        checkVulkan(result, call);
+    }
+    return false;
+}
+
+bool Swapchain::show(const std::function<void(VkCommandBuffer, size_t image)>& record)
+{
+    uint32_t index = 0;
+    const VkResult acquired =
+        vkAcquireNextImageKHR(context_.device(), swapchain_, UINT64_MAX, acquired_.get(), VK_NULL_HANDLE, &index);
+    if (mustRebuild(acquired, "vkAcquireNextImageKHR")) {
+        return false;
+    }
+    const VkSemaphore drawn = drawn_[index].get();
+    context_.run([&](VkCommandBuffer commands) { record(commands, index); }, acquired_.get(), drawn);
+    const VkPresentInfoKHR info{.sType = VK_STRUCTURE_TYPE_PRESENT_INFO_KHR,
+                                .waitSemaphoreCount = 1,
+                                .pWaitSemaphores = &drawn,
+                                .swapchainCount = 1,
+                                .pSwapchains = &swapchain_,
+                                .pImageIndices = &index};
+    const VkResult presented = vkQueuePresentKHR(context_.queue(), &info);
+    return presented != VK_SUBOPTIMAL_KHR && acquired != VK_SUBOPTIMAL_KHR &&
+           !mustRebuild(presented, "vkQueuePresentKHR");
 }
 
 } // namespace nacre

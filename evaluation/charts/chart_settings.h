@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "acquisition/chain/acquire_options.h"
-#include "engine/brdf/texel_format.h"
+#include "engine/brdf/compact_brdf.h"
 #include "engine/files/measures.h"
 #include "engine/scene/ball_size.h"
 

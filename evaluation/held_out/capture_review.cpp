@@ -7,7 +7,6 @@
 
 #include "engine/files/error.h"
 #include "evaluation/held_out/held_out_measures.h"
-#include "evaluation/held_out/judging_photographs.h"
 
 namespace nacre {
 

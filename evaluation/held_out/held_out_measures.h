@@ -7,6 +7,7 @@
 
 #include "acquisition/capture/capture.h"
 #include "acquisition/capture/observations.h"
+#include "acquisition/chain/acquire.h"
 #include "engine/files/measures.h"
 #include "engine/surface/surface.h"
 
@@ -54,5 +55,21 @@ AngularError errorAgainstTruth(const Capture& capture, const NormalMap& normals,
 
 // Of a surface's models as they are kept in memory, coverage apart; components that materials share count once.
 size_t modelBytes(const Surface& surface);
+
+// Photographs that an acquisition is not given, and what predictions of them are measured against.
+struct JudgingPhotographs {
+    Observations seen;
+    std::vector<Light> lights;
+    double peak = 1; // radiance that counts as 1
+};
+
+// Indices of the photographs that a choice holds out.
+std::vector<size_t> heldOutIndices(size_t photographs, const LightChoice& choice);
+
+// Reads these photographs alone, at once. The peak is of their own values.
+JudgingPhotographs readJudging(const Capture& capture, const AcquireOptions& options, size_t every);
+
+// dB of radiance of all of them together.
+double psnrOf(const Surface& surface, const JudgingPhotographs& judging, int threads);
 
 } // namespace nacre

@@ -8,7 +8,7 @@
 
 #include "acquisition/residual/light_spline.h"
 #include "engine/lights/light_plane.h"
-#include "engine/rti/rti_basis.h"
+#include "engine/rti/rti_picture.h"
 
 namespace nacre {
 

@@ -3,19 +3,154 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <vector>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
+#include "acquisition/brdf/albedo_factor.h"
+#include "acquisition/brdf/bake.h"
+#include "acquisition/brdf/brdf_samples.h"
+#include "acquisition/capture/observations.h"
+#include "acquisition/chain/acquire_options.h"
+#include "acquisition/chain/chosen_method.h"
+#include "acquisition/checks/height_consistency.h"
+#include "acquisition/lights/lights.h"
+#include "acquisition/normals/light_triples.h"
 #include "engine/files/error.h"
 #include "engine/files/stopwatch.h"
-#include "evaluation/stress/stress_brdf.h"
-#include "evaluation/stress/stress_estimate.h"
+#include "evaluation/held_out/photographed_object.h"
 
 namespace nacre {
-
 namespace {
+
+// An object's photographs after what does not depend on the method of normals.
+struct StressPhotographs {
+    ReconciledPhotographs reconciled;
+    CheckedSample checked;
+    Observations seen; // of the photographs in use
+};
+
+// The normals that the program finds, and what it warns of.
+struct StressEstimate {
+    NormalBlock block;
+    std::vector<Finding> warnings;
+};
+
+NormalMap mapOf(const PhotographedObject& object, const NormalBlock& block)
+{
+    NormalMap map(object.width, object.height);
+    for (size_t p = 0; p < block.pixels.size(); ++p) {
+        map.normals[object.seen.pixels[p]] = block.pixels[p].normal;
+        map.confidence[object.seen.pixels[p]] = block.pixels[p].confidence;
+    }
+    return map;
+}
+
+// Throws Error where the program refuses, as estimateNormals does.
+StressPhotographs preparedPhotographs(const PhotographedObject& object, const AcquireOptions& options)
+{
+    requireSpanningLights(object.lights, object.name);
+    StressPhotographs photographs;
+    photographs.reconciled = reconcilePhotographs(
+        {evenSample(object.seen), object.photographs, object.irradiancesKnown, object.lights, object.width}, options);
+    const CaptureSample& sample = photographs.reconciled.sample;
+    photographs.checked = checkCapture(sample.seen, sample.width, sample.lights, options.normals);
+    photographs.seen = selectLights(object.seen, photographs.reconciled.agreeing);
+    return photographs;
+}
+
+// The chain as `nacre normals` runs it, from the photographs on.
+StressEstimate estimateNormals(const PhotographedObject& object, const StressPhotographs& photographs,
+                               const AcquireOptions& options)
+{
+    const CaptureSample& sample = photographs.reconciled.sample;
+    const ChosenMethod chosen = chooseMethod(sample, photographs.checked, options.normals);
+    StressEstimate estimate{estimateBlock(chosen.estimators.front(), photographs.seen, sample.lights), {}};
+    if (const auto warning = sphereWarning(directionsOf(object.lights), object.shadingDirections)) {
+        estimate.warnings.push_back({FindingCode::spheresDisagree, *warning});
+    }
+    append(estimate.warnings, heightWarnings(mapOf(object, estimate.block)));
+    append(estimate.warnings, warningsOf(sample.lights));
+    append(estimate.warnings, photographs.checked.findings);
+    append(estimate.warnings, chosen.findings);
+    std::erase_if(estimate.warnings, [](const Finding& finding) { return !isWarning(finding.code); });
+    return estimate;
+}
+
+struct BrdfError {
+    double percent = 0;
+    double meanConfidence = 0; // of the table, where it was asked
+};
+
+const glm::vec3 kView(0, 0, 1);
+constexpr size_t kMostJudged = 1000; // pixels
+constexpr float kLeastCosine = 0.1f; // as samples are taken
+// Below this share of the pixel's bright level an observation is in a cast shadow, of which no BRDF knows.
+constexpr float kLitShare = 0.25f;
+
+BrdfTable bakedTable(const StressPhotographs& photographs, const NormalBlock& normals, const AcquireOptions& options)
+{
+    const std::vector<Light>& lights = photographs.reconciled.sample.lights;
+    BrdfSamples samples;
+    samples.domain = tableDomain(lights, options.bake);
+    SampleCounts counts;
+    gatherSamples(photographs.seen, normals, albedoFactors(photographs.seen, normals, lights), lights, 1,
+                  options.samples, samples, counts);
+    return bakeBrdf(samples, options.interpolation, options.bake).table;
+}
+
+struct ErrorSums {
+    double missed = 0, seen = 0, confidence = 0, count = 0;
+};
+
+void addPixel(const BrdfTable& table, const glm::vec3& normal, std::span<const glm::vec3> radiance,
+              const std::vector<Light>& lights, ErrorSums& sums)
+{
+    std::vector<float> observed, predicted;
+    for (size_t i = 0; i < lights.size(); ++i) {
+        const float nDotL = glm::dot(normal, lights[i].direction);
+        const BrdfValue f = evaluateTable(table, normal, lights[i].direction, kView);
+        const bool faces = nDotL > kLeastCosine;
+        observed.push_back(greyOf(radiance[i] / lights[i].irradiance));
+        predicted.push_back(faces ? nDotL * greyOf(f.value) : 0.0f);
+        sums.confidence += faces ? f.confidence : 0.0f;
+        sums.count += faces;
+    }
+    const float lit = kLitShare * brightLevel(observed);
+    double products = 0, squares = 0;
+    for (size_t i = 0; i < lights.size(); ++i) {
+        predicted[i] = observed[i] > lit ? predicted[i] : 0.0f;
+        products += predicted[i] * observed[i];
+        squares += predicted[i] * predicted[i];
+    }
+    for (size_t i = 0; i < lights.size() && squares > 0; ++i) {
+        if (predicted[i] > 0) {
+            sums.missed += std::abs(products / squares * predicted[i] - observed[i]);
+            sums.seen += observed[i];
+        }
+    }
+}
+
+// How far a material is from the truth that was photographed. It is sampled from the estimate and baked, and predicts
+// the undegraded photographs under their true lights and with their true normals: the sum of |prediction - photograph|
+// over that of the photographs, in percent. Lit observations count, and each pixel has the factor that suits it best,
+// as its albedo is not the material's.
+BrdfError brdfError(const StressPhotographs& photographs, const NormalBlock& normals,
+                    const PhotographedObject& undegraded, const AcquireOptions& options)
+{
+    const BrdfTable table = bakedTable(photographs, normals, options);
+    ErrorSums sums;
+    const size_t pixels = undegraded.seen.pixels.size(), step = pixels / kMostJudged + 1;
+    for (size_t p = 0; p < pixels; p += step) {
+        if (undegraded.truth.confidence[p] > 0) {
+            addPixel(table, undegraded.truth.normals[p], undegraded.seen.radianceOf(p), undegraded.lights, sums);
+        }
+    }
+    return {100 * sums.missed / std::max(sums.seen, 1e-30), sums.confidence / std::max(1.0, sums.count)};
+}
 
 constexpr double kUsualError = 0.01; // of photographs
 constexpr double kLeastBrdfConfidence = 0.5;

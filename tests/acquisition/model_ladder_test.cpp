@@ -4,7 +4,6 @@
 
 #include <glm/geometric.hpp>
 
-#include "acquisition/brdf/lobe_fit.h"
 #include "acquisition/brdf/model_ladder.h"
 #include "engine/brdf/brdf_tabulation.h"
 

@@ -1,4 +1,4 @@
-#include "engine/materials/cie_colour.h"
+#include "acquisition/brdf/cornell_samples.h"
 
 #include <algorithm>
 #include <vector>

@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/scene/coverage.h"
-#include "engine/surface/sampled_pixels.h"
+#include "engine/surface/surface.h"
 
 namespace nacre {
 namespace {

@@ -5,7 +5,6 @@
 #include <gtest/gtest.h>
 
 #include "assets/targets.h"
-#include "engine/target/integrability.h"
 #include "engine/target/normal_map_source.h"
 #include "tests/support/data_folder.h"
 

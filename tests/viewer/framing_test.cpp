@@ -1,7 +1,7 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "engine/view_state/picture_blit.h"
+#include "engine/view_state/framing.h"
 
 namespace nacre {
 namespace {

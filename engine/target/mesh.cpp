@@ -1,4 +1,4 @@
-#include "engine/target/mesh_view.h"
+#include "engine/target/mesh.h"
 
 #include <algorithm>
 #include <limits>
