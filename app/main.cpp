@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cctype>
 #include <cstdio>
 #include <exception>
@@ -6,24 +7,168 @@
 #include <utility>
 #include <vector>
 
+#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include "app/command_texts.h"
 #include "app/commands/commands.h"
 #include "engine/files/error.h"
 
+namespace nacre {
 namespace {
+
+std::vector<const CLI::App*> commandsOf(const CLI::App& app)
+{
+    return app.get_subcommands([](const CLI::App* command) { return !command->get_name().empty(); });
+}
+
+// Without those that --help hides.
+std::vector<const CLI::Option*> shownOptions(const CLI::App& app)
+{
+    return app.get_options([](const CLI::Option* option) { return !option->get_group().empty(); });
+}
+
+std::string longNames(const CLI::App& app)
+{
+    std::string names;
+    for (const CLI::Option* option : shownOptions(app)) {
+        for (const std::string& name : option->get_lnames()) {
+            names += " --" + name;
+        }
+    }
+    return names;
+}
+
+// Text as troff takes it: dashes that may be copied, and no line that it could read as a request.
+std::string troff(const std::string& text)
+{
+    std::string escaped;
+    bool lineStarts = true;
+    for (const char c : text) {
+        if (lineStarts && (c == '.' || c == '\'')) {
+            escaped += "\\&";
+        }
+        escaped += c == '\\' ? "\\e" : c == '-' ? "\\-" : std::string(1, c);
+        lineStarts = c == '\n';
+    }
+    return escaped;
+}
+
+std::string namesOf(const CLI::Option& option)
+{
+    if (option.nonpositional()) {
+        std::string names;
+        for (const std::string& name : option.get_snames()) {
+            names += (names.empty() ? "-" : ", -") + name;
+        }
+        for (const std::string& name : option.get_lnames()) {
+            names += (names.empty() ? "--" : ", --") + name;
+        }
+        return names;
+    }
+    return option.get_name(true);
+}
+
+std::string manOption(const CLI::Option& option)
+{
+    std::string head = fmt::format("\\fB{}\\fR", troff(namesOf(option)));
+    if (!option.get_type_name().empty() && option.nonpositional()) {
+        head += fmt::format(" \\fI{}\\fR", troff(option.get_type_name()));
+    }
+    std::string text = troff(option.get_description());
+    if (option.get_type_size() != 0 && !option.get_default_str().empty()) {
+        text += fmt::format(" (default: {})", troff(option.get_default_str()));
+    }
+    return fmt::format(".TP\n{}\n{}\n", head, text);
+}
+
+std::string usageOf(const CLI::App& command)
+{
+    std::string usage = fmt::format("\\fBnacre {}\\fR [\\fIoptions\\fR]", command.get_name());
+    for (const CLI::Option* option : shownOptions(command)) {
+        if (!option->nonpositional()) {
+            const std::string name = troff(option->get_name(true));
+            usage += option->get_required() ? fmt::format(" \\fI{}\\fR", name) : fmt::format(" [\\fI{}\\fR]", name);
+        }
+    }
+    return usage;
+}
+
+std::string manCommand(const CLI::App& command)
+{
+    std::string name = command.get_name();
+    std::transform(name.begin(), name.end(), name.begin(), [](unsigned char c) { return std::toupper(c); });
+    std::string page =
+        fmt::format(".SH NACRE {}\n{}\n.PP\n{}\n", troff(name), usageOf(command), troff(command.get_description()));
+    for (const std::string& group : command.get_groups()) {
+        const auto options = command.get_options([&](const CLI::Option* o) { return o->get_group() == group; });
+        if (!group.empty() && !options.empty()) {
+            page += fmt::format(".SS {}\n", troff(group));
+            for (const CLI::Option* option : options) {
+                page += manOption(*option);
+            }
+        }
+    }
+    if (!command.get_footer().empty()) {
+        page += fmt::format(".PP\n.nf\n{}\n.fi\n", troff(command.get_footer()));
+    }
+    return page;
+}
+
+// What a shell and man(1) show, made from the tree of commands and options, so that it cannot differ from --help.
+std::string bashCompletion(const CLI::App& app)
+{
+    std::string commands, cases;
+    for (const CLI::App* command : commandsOf(app)) {
+        commands += command->get_name() + " ";
+        cases += fmt::format("        {}) words=\"{}\" ;;\n", command->get_name(), longNames(*command).substr(1));
+    }
+    return fmt::format(R"(# bash completion for nacre: commands, then long options; file names where neither fits
+_nacre() {{
+    local word=${{COMP_WORDS[COMP_CWORD]}} words=
+    COMPREPLY=()
+    if [ "$COMP_CWORD" = 1 ]; then
+        words="{}{}"
+    elif [[ $word != -* ]]; then
+        return
+    else
+        case ${{COMP_WORDS[1]}} in
+{}        esac
+    fi
+    COMPREPLY=($(compgen -W "$words" -- "$word"))
+}}
+complete -o default -F _nacre nacre
+)",
+                       commands, longNames(app).substr(1), cases);
+}
+
+std::string manPage(const CLI::App& app, const std::string& version)
+{
+    std::string page =
+        fmt::format(".TH NACRE 1 \"\" \"nacre {}\" \"User Commands\"\n.SH NAME\nnacre \\- materials measured "
+                    "from photographs and relit\n.SH SYNOPSIS\n\\fBnacre\\fR \\fIcommand\\fR "
+                    "[\\fIoptions\\fR]\n.SH DESCRIPTION\n{}\n.SH COMMANDS\n",
+                    version, troff(app.get_description()));
+    for (const CLI::App* command : commandsOf(app)) {
+        page += fmt::format(".TP\n\\fB{}\\fR\n{}\n", troff(command->get_name()), troff(command->get_description()));
+    }
+    for (const CLI::App* command : commandsOf(app)) {
+        page += manCommand(*command);
+    }
+    return page +
+           ".SH EXIT STATUS\n0 if all went well, 1 if a check failed, 2 for a command line that is not understood, "
+           "3 for data that cannot be used; one line on standard error says why.\n";
+}
 
 constexpr int kInternalError = 70; // EX_SOFTWARE of sysexits.h
 
 // CLI11's message as one line of the program's own form, with the command whose help answers it.
-nacre::Error usageError(const CLI::App& app, const CLI::ParseError& e)
+Error usageError(const CLI::App& app, const CLI::ParseError& e)
 {
     const auto commands = app.get_subcommands();
     if (commands.empty()) {
         const std::vector<std::string> unknown = app.remaining();
         return {"", unknown.empty() ? "no command is given" : fmt::format("'{}' is no command", unknown.front()),
-                "see nacre --help", nacre::Error::kUsage};
+                "see nacre --help", Error::kUsage};
     }
     std::string text = e.what();
     const std::string unconverted = "Could not convert: ";
@@ -32,7 +177,7 @@ nacre::Error usageError(const CLI::App& app, const CLI::ParseError& e)
     } else if (text.size() > 1 && std::islower(static_cast<unsigned char>(text[1]))) {
         text[0] = static_cast<char>(std::tolower(static_cast<unsigned char>(text[0])));
     }
-    return {"", text, fmt::format("see nacre {} --help", commands.front()->get_name()), nacre::Error::kUsage};
+    return {"", text, fmt::format("see nacre {} --help", commands.front()->get_name()), Error::kUsage};
 }
 
 // Not in --help: the build makes the files from them that an installation holds.
@@ -46,8 +191,8 @@ void addTexts(CLI::App& app)
                               })
             ->group("");
     };
-    print("--bash-completion", [&app] { return nacre::bashCompletion(app); });
-    print("--man-page", [&app] { return nacre::manPage(app, NACRE_VERSION); });
+    print("--bash-completion", [&app] { return bashCompletion(app); });
+    print("--man-page", [&app] { return manPage(app, NACRE_VERSION); });
 }
 
 // In the order and under the headings of --help.
@@ -56,14 +201,12 @@ void addCommands(CLI::App& app)
     using Adders = std::vector<void (*)(CLI::App&)>;
     const std::pair<const char*, Adders> groups[] = {
         {"Measure",
-         {nacre::addAcquireCommand, nacre::addNormalsCommand, nacre::addCalibrateCommand, nacre::addMaterialsCommand,
-          nacre::addBrdfCommand, nacre::addExportCommand}},
-        {"Render", {nacre::addRenderCommand, nacre::addTransferCommand, nacre::addTargetCommand}},
-        {"Look", {nacre::addViewCommand, nacre::addInfoCommand}},
-        {"Judge",
-         {nacre::addEvaluateCommand, nacre::addChartCommand, nacre::addStressCommand, nacre::addBenchCommand,
-          nacre::addCompareCommand}},
-        {"Make", {nacre::addSynthCommand, nacre::addDemoCommand}},
+         {addAcquireCommand, addNormalsCommand, addCalibrateCommand, addMaterialsCommand, addBrdfCommand,
+          addExportCommand}},
+        {"Render", {addRenderCommand, addTransferCommand, addTargetCommand}},
+        {"Look", {addViewCommand, addInfoCommand}},
+        {"Judge", {addEvaluateCommand, addChartCommand, addStressCommand, addBenchCommand, addCompareCommand}},
+        {"Make", {addSynthCommand, addDemoCommand}},
     };
     for (const auto& [heading, adders] : groups) {
         for (const auto add : adders) {
@@ -92,11 +235,12 @@ int runCommandLine(int argc, char** argv)
 }
 
 } // namespace
+} // namespace nacre
 
 int main(int argc, char** argv)
 {
     try {
-        return runCommandLine(argc, argv);
+        return nacre::runCommandLine(argc, argv);
     } catch (const nacre::Error& e) {
         std::fprintf(stderr, "nacre: %s\n", e.what());
         return e.exitCode();
@@ -109,6 +253,6 @@ int main(int argc, char** argv)
         return nacre::Error::kData;
     } catch (const std::exception& e) {
         std::fprintf(stderr, "nacre: internal error: %s\n", e.what());
-        return kInternalError;
+        return nacre::kInternalError;
     }
 }
