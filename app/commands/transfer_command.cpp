@@ -80,7 +80,9 @@ CellSize cellSizeOf(const TransferSources& sources)
     return {cell.width / cell.box, cell.height / cell.box, cell.box};
 }
 
-// Draws everything that one renderer has to, and collects the sheets.
+// Draws everything that one renderer has to: RIG_MATERIAL_on_TARGET.png (with frames numbered, and the same as .webp),
+// RIG_MATERIAL_ball.png, and sheet_RIG.png with all of a rig: materials down, the ball and the targets across; sheet.png
+// with all of several rigs. The folder exists.
 class Studio {
 public:
     Studio(const fs::path& folder, const TransferSources& sources, const RenderOutput& output, const Context& context)
@@ -171,12 +173,6 @@ private:
     std::vector<TransferPicture> pictures_;
 };
 
-std::vector<TransferPicture> saveTransferPictures(const fs::path& folder, const TransferSources& sources,
-                                                  const RenderOutput& output, const Context& context)
-{
-    return Studio(folder, sources, output, context).draw();
-}
-
 RenderOutput outputOf(const TransferArguments& arguments)
 {
     if (arguments.frames < 1 || arguments.frames > kMostFrames) {
@@ -241,7 +237,7 @@ void runTransfer(const TransferArguments& arguments)
     }
     const double before = seconds();
     std::filesystem::create_directory(folder.temporary());
-    const std::vector<TransferPicture> pictures = saveTransferPictures(folder.temporary(), sources, output, context);
+    const std::vector<TransferPicture> pictures = Studio(folder.temporary(), sources, output, context).draw();
     folder.commit();
     if (!arguments.quiet) {
         print(pictures);
