@@ -13,31 +13,19 @@ namespace {
 VkBuffer createBuffer(VkDevice device, VkDeviceSize bytes, VkBufferUsageFlags usage)
 {
     const VkBufferCreateInfo info{.sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO, .size = bytes, .usage = usage};
-    VkBuffer buffer = VK_NULL_HANDLE;
-    checkVulkan(vkCreateBuffer(device, &info, nullptr, &buffer), "vkCreateBuffer");
-    return buffer;
+    return created(vkCreateBuffer, "vkCreateBuffer", device, info);
 }
 
-uint32_t memoryTypeOf(const Context& context, uint32_t typeBits, Memory memory)
-{
-    if (memory == Memory::device) {
-        return context.memoryType(typeBits, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT);
-    }
-    // Cached memory reads frames back at the speed of memory instead of the bus's.
-    return context.memoryType(typeBits, VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT,
-                              VK_MEMORY_PROPERTY_HOST_CACHED_BIT);
-}
-
-VkDeviceMemory allocate(const Context& context, VkBuffer buffer, Memory kind)
+Owned<VkDeviceMemory, vkFreeMemory> allocate(const Context& context, VkBuffer buffer, Memory memory)
 {
     VkMemoryRequirements requirements;
     vkGetBufferMemoryRequirements(context.device(), buffer, &requirements);
-    const VkMemoryAllocateInfo info{.sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO,
-                                    .allocationSize = requirements.size,
-                                    .memoryTypeIndex = memoryTypeOf(context, requirements.memoryTypeBits, kind)};
-    VkDeviceMemory memory = VK_NULL_HANDLE;
-    checkVulkan(vkAllocateMemory(context.device(), &info, nullptr, &memory), "vkAllocateMemory");
-    return memory;
+    if (memory == Memory::device) {
+        return context.allocate(requirements, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT);
+    }
+    // Cached memory reads frames back at the speed of memory instead of the bus's.
+    return context.allocate(requirements, VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT,
+                            VK_MEMORY_PROPERTY_HOST_CACHED_BIT);
 }
 
 void barrierAfterCopy(VkCommandBuffer commands, const Buffer& buffer, VkPipelineStageFlags2 stages,
@@ -77,9 +65,7 @@ VkBufferView createTexelView(VkDevice device, const Buffer& buffer, VkFormat for
                                       .buffer = buffer.get(),
                                       .format = format,
                                       .range = VK_WHOLE_SIZE};
-    VkBufferView view = VK_NULL_HANDLE;
-    checkVulkan(vkCreateBufferView(device, &info, nullptr, &view), "vkCreateBufferView");
-    return view;
+    return created(vkCreateBufferView, "vkCreateBufferView", device, info);
 }
 
 } // namespace
@@ -87,7 +73,7 @@ VkBufferView createTexelView(VkDevice device, const Buffer& buffer, VkFormat for
 Buffer::Buffer(const Context& context, VkDeviceSize bytes, VkBufferUsageFlags usage, Memory memory)
     : buffer_(context.device(), createBuffer(context.device(), bytes, usage)), bytes_(bytes)
 {
-    memory_ = {context.device(), allocate(context, buffer_.get(), memory)};
+    memory_ = allocate(context, buffer_.get(), memory);
     checkVulkan(vkBindBufferMemory(context.device(), buffer_.get(), memory_.get(), 0), "vkBindBufferMemory");
     if (memory == Memory::shared) {
         checkVulkan(vkMapMemory(context.device(), memory_.get(), 0, VK_WHOLE_SIZE, 0, &mapped_), "vkMapMemory");

@@ -4,8 +4,8 @@
 
 #include <vulkan/vulkan.h>
 
+#include "engine/gpu/check.h"
 #include "engine/gpu/context.h"
-#include "engine/gpu/owned.h"
 
 namespace nacre {
 

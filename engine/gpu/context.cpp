@@ -35,18 +35,14 @@ VkDevice createDevice(VkPhysicalDevice physicalDevice, uint32_t queueFamily, boo
                                   .pQueueCreateInfos = &queue,
                                   .enabledExtensionCount = presents ? 2u : 1u,
                                   .ppEnabledExtensionNames = extensions};
-    VkDevice device = VK_NULL_HANDLE;
-    checkVulkan(vkCreateDevice(physicalDevice, &info, nullptr, &device), "vkCreateDevice");
-    return device;
+    return created(vkCreateDevice, "vkCreateDevice", physicalDevice, info);
 }
 
 VkCommandPool createCommandPool(VkDevice device, uint32_t queueFamily)
 {
     const VkCommandPoolCreateInfo info{.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO,
                                        .queueFamilyIndex = queueFamily};
-    VkCommandPool pool = VK_NULL_HANDLE;
-    checkVulkan(vkCreateCommandPool(device, &info, nullptr, &pool), "vkCreateCommandPool");
-    return pool;
+    return created(vkCreateCommandPool, "vkCreateCommandPool", device, info);
 }
 
 VkCommandBuffer allocateCommandBuffer(VkDevice device, VkCommandPool pool)
@@ -63,9 +59,7 @@ VkCommandBuffer allocateCommandBuffer(VkDevice device, VkCommandPool pool)
 VkFence createFence(VkDevice device)
 {
     const VkFenceCreateInfo info{.sType = VK_STRUCTURE_TYPE_FENCE_CREATE_INFO};
-    VkFence fence = VK_NULL_HANDLE;
-    checkVulkan(vkCreateFence(device, &info, nullptr, &fence), "vkCreateFence");
-    return fence;
+    return created(vkCreateFence, "vkCreateFence", device, info);
 }
 
 } // namespace
@@ -93,13 +87,18 @@ Context::Context(const std::string& selector, std::span<const char* const> windo
         reinterpret_cast<PFN_vkCmdPushDescriptorSetKHR>(vkGetDeviceProcAddr(device(), "vkCmdPushDescriptorSetKHR"));
 }
 
-uint32_t Context::memoryType(uint32_t typeBits, VkMemoryPropertyFlags required, VkMemoryPropertyFlags preferred) const
+Owned<VkDeviceMemory, vkFreeMemory> Context::allocate(const VkMemoryRequirements& requirements,
+                                                      VkMemoryPropertyFlags required,
+                                                      VkMemoryPropertyFlags preferred) const
 {
     for (const VkMemoryPropertyFlags wanted : {required | preferred, required}) {
         for (uint32_t i = 0; i < memory_.memoryTypeCount; ++i) {
-            const bool allowed = (typeBits & (1u << i)) != 0;
+            const bool allowed = (requirements.memoryTypeBits & (1u << i)) != 0;
             if (allowed && (memory_.memoryTypes[i].propertyFlags & wanted) == wanted) {
-                return i;
+                const VkMemoryAllocateInfo info{.sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO,
+                                                .allocationSize = requirements.size,
+                                                .memoryTypeIndex = i};
+                return {device(), created(vkAllocateMemory, "vkAllocateMemory", device(), info)};
             }
         }
     }

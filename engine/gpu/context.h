@@ -6,9 +6,9 @@
 
 #include <vulkan/vulkan.h>
 
+#include "engine/gpu/check.h"
 #include "engine/gpu/device_info.h"
 #include "engine/gpu/instance.h"
-#include "engine/gpu/owned.h"
 
 namespace nacre {
 
@@ -31,8 +31,10 @@ public:
     bool validates() const { return instance_.validates(); }
     int validationMessages() const { return instance_.validationMessages(); }
 
-    // A memory type among `typeBits` with the `required` properties, with the `preferred` ones too where there is one.
-    uint32_t memoryType(uint32_t typeBits, VkMemoryPropertyFlags required, VkMemoryPropertyFlags preferred = 0) const;
+    // Memory with the `required` properties, with the `preferred` ones too where there is such.
+    Owned<VkDeviceMemory, vkFreeMemory> allocate(const VkMemoryRequirements& requirements,
+                                                 VkMemoryPropertyFlags required,
+                                                 VkMemoryPropertyFlags preferred = 0) const;
 
     // Records, submits, and returns when the device is done.
     void run(const std::function<void(VkCommandBuffer)>& record) const;

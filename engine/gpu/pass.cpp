@@ -26,9 +26,7 @@ VkDescriptorSetLayout createSetLayout(VkDevice device, std::span<const ShaderBin
                                                .flags = VK_DESCRIPTOR_SET_LAYOUT_CREATE_PUSH_DESCRIPTOR_BIT_KHR,
                                                .bindingCount = static_cast<uint32_t>(layoutBindings.size()),
                                                .pBindings = layoutBindings.data()};
-    VkDescriptorSetLayout layout = VK_NULL_HANDLE;
-    checkVulkan(vkCreateDescriptorSetLayout(device, &info, nullptr, &layout), "vkCreateDescriptorSetLayout");
-    return layout;
+    return created(vkCreateDescriptorSetLayout, "vkCreateDescriptorSetLayout", device, info);
 }
 
 VkPipelineLayout createLayout(VkDevice device, VkDescriptorSetLayout set, VkShaderStageFlags stages,
@@ -40,18 +38,14 @@ VkPipelineLayout createLayout(VkDevice device, VkDescriptorSetLayout set, VkShad
                                           .pSetLayouts = &set,
                                           .pushConstantRangeCount = pushConstantBytes > 0 ? 1u : 0u,
                                           .pPushConstantRanges = &range};
-    VkPipelineLayout layout = VK_NULL_HANDLE;
-    checkVulkan(vkCreatePipelineLayout(device, &info, nullptr, &layout), "vkCreatePipelineLayout");
-    return layout;
+    return created(vkCreatePipelineLayout, "vkCreatePipelineLayout", device, info);
 }
 
 ShaderModule makeShaderModule(VkDevice device, std::span<const uint32_t> code)
 {
     const VkShaderModuleCreateInfo info{
         .sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO, .codeSize = code.size_bytes(), .pCode = code.data()};
-    VkShaderModule module = VK_NULL_HANDLE;
-    checkVulkan(vkCreateShaderModule(device, &info, nullptr, &module), "vkCreateShaderModule");
-    return {device, module};
+    return {device, created(vkCreateShaderModule, "vkCreateShaderModule", device, info)};
 }
 
 VkPipelineShaderStageCreateInfo stage(VkShaderStageFlagBits which, const ShaderModule& module,

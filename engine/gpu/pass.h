@@ -7,8 +7,8 @@
 #include <vulkan/vulkan.h>
 
 #include "engine/gpu/buffer.h"
+#include "engine/gpu/check.h"
 #include "engine/gpu/context.h"
-#include "engine/gpu/owned.h"
 #include "engine/gpu/texture.h"
 
 namespace nacre {

@@ -15,8 +15,10 @@
 namespace nacre {
 namespace {
 
-constexpr VkImageSubresourceRange kWholeImage{
-    .aspectMask = VK_IMAGE_ASPECT_COLOR_BIT, .levelCount = 1, .layerCount = VK_REMAINING_ARRAY_LAYERS};
+VkImageSubresourceRange wholeImage(VkImageAspectFlags aspect)
+{
+    return {.aspectMask = aspect, .levelCount = 1, .layerCount = VK_REMAINING_ARRAY_LAYERS};
+}
 
 void requireTableSize(const Context& context, VkExtent3D extent)
 {
@@ -43,42 +45,22 @@ VkImage createImage(VkDevice device, const Texture::Description& description)
                                  .tiling = VK_IMAGE_TILING_OPTIMAL,
                                  .usage = description.usage,
                                  .initialLayout = VK_IMAGE_LAYOUT_UNDEFINED};
-    VkImage image = VK_NULL_HANDLE;
-    checkVulkan(vkCreateImage(device, &info, nullptr, &image), "vkCreateImage");
-    return image;
-}
-
-VkMemoryRequirements requirementsOf(VkDevice device, VkImage image)
-{
-    VkMemoryRequirements requirements;
-    vkGetImageMemoryRequirements(device, image, &requirements);
-    return requirements;
-}
-
-VkDeviceMemory allocateOnDevice(const Context& context, const VkMemoryRequirements& requirements)
-{
-    const VkMemoryAllocateInfo info{
-        .sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO,
-        .allocationSize = requirements.size,
-        .memoryTypeIndex = context.memoryType(requirements.memoryTypeBits, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT)};
-    VkDeviceMemory memory = VK_NULL_HANDLE;
-    checkVulkan(vkAllocateMemory(context.device(), &info, nullptr, &memory), "vkAllocateMemory");
-    return memory;
+    return created(vkCreateImage, "vkCreateImage", device, info);
 }
 
 VkImageView createView(VkDevice device, VkImage image, const Texture::Description& description)
 {
     const bool solid = description.type == VK_IMAGE_TYPE_3D, isArray = description.layers > 0;
-    const VkImageViewCreateInfo info{.sType = VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO,
-                                     .image = image,
-                                     .viewType = solid     ? VK_IMAGE_VIEW_TYPE_3D
-                                                 : isArray ? VK_IMAGE_VIEW_TYPE_2D_ARRAY
-                                                           : VK_IMAGE_VIEW_TYPE_2D,
-                                     .format = description.format,
-                                     .subresourceRange = kWholeImage};
-    VkImageView view = VK_NULL_HANDLE;
-    checkVulkan(vkCreateImageView(device, &info, nullptr, &view), "vkCreateImageView");
-    return view;
+    const VkImageViewCreateInfo info{
+        .sType = VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO,
+        .image = image,
+        .viewType = solid     ? VK_IMAGE_VIEW_TYPE_3D
+                    : isArray ? VK_IMAGE_VIEW_TYPE_2D_ARRAY
+                              : VK_IMAGE_VIEW_TYPE_2D,
+        .format = description.format,
+        .subresourceRange =
+            wholeImage(description.format == kDepthFormat ? VK_IMAGE_ASPECT_DEPTH_BIT : VK_IMAGE_ASPECT_COLOR_BIT)};
+    return created(vkCreateImageView, "vkCreateImageView", device, info);
 }
 
 template <class Pack> auto packed(std::span<const glm::vec4> texels, Pack&& pack)
@@ -113,9 +95,10 @@ Texture::Texture(const Context& context, const Description& description) : descr
         requirePictureSize(context, static_cast<int>(extent.width), static_cast<int>(extent.height));
     }
     image_ = {context.device(), createImage(context.device(), description)};
-    const VkMemoryRequirements requirements = requirementsOf(context.device(), image_.get());
+    VkMemoryRequirements requirements;
+    vkGetImageMemoryRequirements(context.device(), image_.get(), &requirements);
     bytes_ = requirements.size;
-    memory_ = {context.device(), allocateOnDevice(context, requirements)};
+    memory_ = context.allocate(requirements, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT);
     checkVulkan(vkBindImageMemory(context.device(), image_.get(), memory_.get(), 0), "vkBindImageMemory");
     view_ = {context.device(), createView(context.device(), image_.get(), description)};
 }
@@ -182,12 +165,11 @@ Sampler makeSampler(const Context& context, VkFilter filter)
                                    .addressModeU = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE,
                                    .addressModeV = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE,
                                    .addressModeW = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE};
-    VkSampler sampler = VK_NULL_HANDLE;
-    checkVulkan(vkCreateSampler(context.device(), &info, nullptr, &sampler), "vkCreateSampler");
-    return {context.device(), sampler};
+    return {context.device(), created(vkCreateSampler, "vkCreateSampler", context.device(), info)};
 }
 
-void imageBarrier(VkCommandBuffer commands, VkImage image, const ImageUse& before, const ImageUse& after)
+void imageBarrier(VkCommandBuffer commands, VkImage image, const ImageUse& before, const ImageUse& after,
+                  VkImageAspectFlags aspect)
 {
     const VkImageMemoryBarrier2 barrier{.sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2,
                                         .srcStageMask = before.stages,
@@ -199,7 +181,7 @@ void imageBarrier(VkCommandBuffer commands, VkImage image, const ImageUse& befor
                                         .srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
                                         .dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
                                         .image = image,
-                                        .subresourceRange = kWholeImage};
+                                        .subresourceRange = wholeImage(aspect)};
     const VkDependencyInfo dependency{
         .sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO, .imageMemoryBarrierCount = 1, .pImageMemoryBarriers = &barrier};
     vkCmdPipelineBarrier2(commands, &dependency);

@@ -4,8 +4,8 @@
 #include <glm/vec4.hpp>
 #include <vulkan/vulkan.h>
 
+#include "engine/gpu/check.h"
 #include "engine/gpu/context.h"
-#include "engine/gpu/owned.h"
 
 namespace nacre {
 
@@ -21,6 +21,7 @@ inline constexpr VkFormat kIntegersFormat = VK_FORMAT_R32G32B32A32_UINT;
 
 // One channel in [0, 1].
 inline constexpr VkFormat kByteFormat = VK_FORMAT_R8_UNORM;
+inline constexpr VkFormat kDepthFormat = VK_FORMAT_D32_SFLOAT;
 
 // An image in device memory, without mip levels.
 class Texture {
@@ -90,6 +91,7 @@ inline constexpr ImageUse kDrawnTo{VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
                                    VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT,
                                    VK_ACCESS_2_COLOR_ATTACHMENT_READ_BIT | VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT};
 
-void imageBarrier(VkCommandBuffer commands, VkImage image, const ImageUse& before, const ImageUse& after);
+void imageBarrier(VkCommandBuffer commands, VkImage image, const ImageUse& before, const ImageUse& after,
+                  VkImageAspectFlags aspect = VK_IMAGE_ASPECT_COLOR_BIT);
 
 } // namespace nacre

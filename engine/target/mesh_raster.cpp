@@ -11,7 +11,6 @@
 
 #include "engine/files/parallel_for.h"
 #include "engine/gpu/buffer.h"
-#include "engine/gpu/check.h"
 #include "engine/gpu/pass.h"
 #include "engine/surface/surface.h"
 #include "engine/target/normal_map_scale.h"
@@ -92,70 +91,6 @@ struct MeshVertex {
     glm::vec2 uv;
 };
 
-constexpr VkFormat kDepthFormat = VK_FORMAT_D32_SFLOAT;
-
-VkImage createDepthImage(VkDevice device, VkExtent3D extent)
-{
-    const VkImageCreateInfo info{.sType = VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO,
-                                 .imageType = VK_IMAGE_TYPE_2D,
-                                 .format = kDepthFormat,
-                                 .extent = extent,
-                                 .mipLevels = 1,
-                                 .arrayLayers = 1,
-                                 .samples = VK_SAMPLE_COUNT_1_BIT,
-                                 .tiling = VK_IMAGE_TILING_OPTIMAL,
-                                 .usage = VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT,
-                                 .initialLayout = VK_IMAGE_LAYOUT_UNDEFINED};
-    VkImage image = VK_NULL_HANDLE;
-    checkVulkan(vkCreateImage(device, &info, nullptr, &image), "vkCreateImage");
-    return image;
-}
-
-VkDeviceMemory allocateDepth(const Context& context, VkImage image)
-{
-    VkMemoryRequirements requirements;
-    vkGetImageMemoryRequirements(context.device(), image, &requirements);
-    const VkMemoryAllocateInfo info{
-        .sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO,
-        .allocationSize = requirements.size,
-        .memoryTypeIndex = context.memoryType(requirements.memoryTypeBits, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT)};
-    VkDeviceMemory memory = VK_NULL_HANDLE;
-    checkVulkan(vkAllocateMemory(context.device(), &info, nullptr, &memory), "vkAllocateMemory");
-    return memory;
-}
-
-VkImageView createDepthView(VkDevice device, VkImage image)
-{
-    const VkImageViewCreateInfo info{
-        .sType = VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO,
-        .image = image,
-        .viewType = VK_IMAGE_VIEW_TYPE_2D,
-        .format = kDepthFormat,
-        .subresourceRange = {.aspectMask = VK_IMAGE_ASPECT_DEPTH_BIT, .levelCount = 1, .layerCount = 1}};
-    VkImageView view = VK_NULL_HANDLE;
-    checkVulkan(vkCreateImageView(device, &info, nullptr, &view), "vkCreateImageView");
-    return view;
-}
-
-// Depth in 32-bit floats, for one target.
-class DepthBuffer {
-public:
-    DepthBuffer(const Context& context, VkExtent3D extent)
-        : image_(context.device(), createDepthImage(context.device(), extent))
-    {
-        memory_ = {context.device(), allocateDepth(context, image_.get())};
-        checkVulkan(vkBindImageMemory(context.device(), image_.get(), memory_.get(), 0), "vkBindImageMemory");
-        view_ = {context.device(), createDepthView(context.device(), image_.get())};
-    }
-    VkImage image() const { return image_.get(); }
-    VkImageView view() const { return view_.get(); }
-
-private:
-    Owned<VkDeviceMemory, vkFreeMemory> memory_; // freed after the image and its view
-    Owned<VkImage, vkDestroyImage> image_;
-    Owned<VkImageView, vkDestroyImageView> view_;
-};
-
 VkVertexInputAttributeDescription attribute(int location, VkFormat format, size_t offset)
 {
     return {.location = static_cast<uint32_t>(location),
@@ -173,29 +108,10 @@ const VertexInput kVertices{
 constexpr std::array kMeshBindings = {ShaderBinding{kBindingMeshNormalMap, kTextureInput}};
 static_assert(kConstantMeshMapped == 0, "the first of the constants");
 
-// The depth buffer's part in a barrier, before its first use and between uploads.
-void depthBarrier(VkCommandBuffer commands, const DepthBuffer& depth, bool first)
-{
-    const VkPipelineStageFlags2 tests =
-        VK_PIPELINE_STAGE_2_EARLY_FRAGMENT_TESTS_BIT | VK_PIPELINE_STAGE_2_LATE_FRAGMENT_TESTS_BIT;
-    const VkAccessFlags2 uses =
-        VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_READ_BIT | VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT;
-    const VkImageMemoryBarrier2 barrier{
-        .sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2,
-        .srcStageMask = first ? VK_PIPELINE_STAGE_2_NONE : tests,
-        .srcAccessMask = first ? VK_ACCESS_2_NONE : uses,
-        .dstStageMask = tests,
-        .dstAccessMask = uses,
-        .oldLayout = first ? VK_IMAGE_LAYOUT_UNDEFINED : VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL,
-        .newLayout = VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL,
-        .srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
-        .dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
-        .image = depth.image(),
-        .subresourceRange = {.aspectMask = VK_IMAGE_ASPECT_DEPTH_BIT, .levelCount = 1, .layerCount = 1}};
-    const VkDependencyInfo dependency{
-        .sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO, .imageMemoryBarrierCount = 1, .pImageMemoryBarriers = &barrier};
-    vkCmdPipelineBarrier2(commands, &dependency);
-}
+constexpr ImageUse kDepthTested{
+    VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL,
+    VK_PIPELINE_STAGE_2_EARLY_FRAGMENT_TESTS_BIT | VK_PIPELINE_STAGE_2_LATE_FRAGMENT_TESTS_BIT,
+    VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_READ_BIT | VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT};
 
 Texture uploadNormalMap(const Context& context, const NormalMap& map)
 {
@@ -215,7 +131,9 @@ public:
         : context_(context), mesh_(mesh), view_(view),
           samplesPerSide_(samplesPerSide), extent_{static_cast<uint32_t>(view.width * samplesPerSide),
                                                    static_cast<uint32_t>(view.height * samplesPerSide), 1},
-          target_(makeTarget(context, extent_, kFloatFormat)), depth_(context, extent_),
+          target_(makeTarget(context, extent_, kFloatFormat)),
+          depth_(context,
+                 {.extent = extent_, .format = kDepthFormat, .usage = VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT}),
           vertices_(context, kTrianglesPerUpload * 3 * sizeof(MeshVertex), VK_BUFFER_USAGE_VERTEX_BUFFER_BIT),
           nearest_(makeSampler(context, VK_FILTER_NEAREST)), noMap_(uploadNormalMap(context, NormalMap(1, 1))),
 
@@ -296,7 +214,8 @@ private:
     void beginRendering(VkCommandBuffer commands)
     {
         imageBarrier(commands, target_.image(), isEmpty_ ? kUnused : kDrawnTo, kDrawnTo);
-        depthBarrier(commands, depth_, isEmpty_);
+        imageBarrier(commands, depth_.image(), isEmpty_ ? kUnused : kDepthTested, kDepthTested,
+                     VK_IMAGE_ASPECT_DEPTH_BIT);
         const VkAttachmentLoadOp load = isEmpty_ ? VK_ATTACHMENT_LOAD_OP_CLEAR : VK_ATTACHMENT_LOAD_OP_LOAD;
         const VkRenderingAttachmentInfo color{.sType = VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO,
                                               .imageView = target_.view(),
@@ -306,7 +225,7 @@ private:
                                               .clearValue = {.color = {.float32 = {0, 0, 0, 0}}}};
         const VkRenderingAttachmentInfo depth{.sType = VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO,
                                               .imageView = depth_.view(),
-                                              .imageLayout = VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL,
+                                              .imageLayout = kDepthTested.layout,
                                               .loadOp = load,
                                               .storeOp = VK_ATTACHMENT_STORE_OP_STORE,
                                               .clearValue = {.depthStencil = {.depth = 1}}};
@@ -357,7 +276,7 @@ private:
     int samplesPerSide_;
     VkExtent3D extent_;
     Texture target_;
-    DepthBuffer depth_;
+    Texture depth_;
     Buffer vertices_;
     Sampler nearest_;
     Texture noMap_;       // the shader has a place for one

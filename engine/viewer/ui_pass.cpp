@@ -35,9 +35,7 @@ VkRenderPass makeRenderPass(VkDevice device, VkFormat format)
                                       .pAttachments = &attachment,
                                       .subpassCount = 1,
                                       .pSubpasses = &subpass};
-    VkRenderPass pass = VK_NULL_HANDLE;
-    checkVulkan(vkCreateRenderPass(device, &info, nullptr, &pass), "vkCreateRenderPass");
-    return pass;
+    return created(vkCreateRenderPass, "vkCreateRenderPass", device, info);
 }
 
 // For the font.
@@ -49,9 +47,7 @@ VkDescriptorPool makeDescriptorPool(VkDevice device)
                                           .maxSets = 1,
                                           .poolSizeCount = 1,
                                           .pPoolSizes = &size};
-    VkDescriptorPool pool = VK_NULL_HANDLE;
-    checkVulkan(vkCreateDescriptorPool(device, &info, nullptr, &pool), "vkCreateDescriptorPool");
-    return pool;
+    return created(vkCreateDescriptorPool, "vkCreateDescriptorPool", device, info);
 }
 
 void chooseFont(float scale)
@@ -141,9 +137,8 @@ void UiPass::makeFramebuffers(const Swapchain& swapchain)
                                            .width = swapchain.extent().width,
                                            .height = swapchain.extent().height,
                                            .layers = 1};
-        VkFramebuffer framebuffer = VK_NULL_HANDLE;
-        checkVulkan(vkCreateFramebuffer(context_.device(), &info, nullptr, &framebuffer), "vkCreateFramebuffer");
-        framebuffers_.emplace_back(context_.device(), framebuffer);
+        framebuffers_.emplace_back(context_.device(),
+                                   created(vkCreateFramebuffer, "vkCreateFramebuffer", context_.device(), info));
     }
     generation_ = swapchain.generation();
 }

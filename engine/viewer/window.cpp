@@ -1,10 +1,10 @@
-#define GLFW_INCLUDE_VULKAN
 #include "engine/viewer/window.h"
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
+#define GLFW_INCLUDE_VULKAN
 #include <GLFW/glfw3.h>
 
 #include "engine/files/error.h"
@@ -119,9 +119,7 @@ VkSurfaceFormatKHR plainFormat(VkPhysicalDevice device, VkSurfaceKHR surface)
 Owned<VkSemaphore, vkDestroySemaphore> makeSemaphore(VkDevice device)
 {
     const VkSemaphoreCreateInfo info{.sType = VK_STRUCTURE_TYPE_SEMAPHORE_CREATE_INFO};
-    VkSemaphore semaphore = VK_NULL_HANDLE;
-    checkVulkan(vkCreateSemaphore(device, &info, nullptr, &semaphore), "vkCreateSemaphore");
-    return {device, semaphore};
+    return {device, created(vkCreateSemaphore, "vkCreateSemaphore", device, info)};
 }
 
 VkExtent2D extentFor(const VkSurfaceCapabilitiesKHR& capabilities, const glm::ivec2& framebuffer)
@@ -147,9 +145,7 @@ Owned<VkImageView, vkDestroyImageView> viewOf(VkDevice device, VkImage image, Vk
         .viewType = VK_IMAGE_VIEW_TYPE_2D,
         .format = format,
         .subresourceRange = {.aspectMask = VK_IMAGE_ASPECT_COLOR_BIT, .levelCount = 1, .layerCount = 1}};
-    VkImageView view = VK_NULL_HANDLE;
-    checkVulkan(vkCreateImageView(device, &info, nullptr, &view), "vkCreateImageView");
-    return {device, view};
+    return {device, created(vkCreateImageView, "vkCreateImageView", device, info)};
 }
 
 } // namespace
@@ -315,7 +311,7 @@ void Swapchain::rebuild()
                                         .compositeAlpha = VK_COMPOSITE_ALPHA_OPAQUE_BIT_KHR,
                                         .presentMode = VK_PRESENT_MODE_FIFO_KHR,
                                         .clipped = VK_TRUE};
-    checkVulkan(vkCreateSwapchainKHR(context_.device(), &info, nullptr, &swapchain_), "vkCreateSwapchainKHR");
+    swapchain_ = created(vkCreateSwapchainKHR, "vkCreateSwapchainKHR", context_.device(), info);
     uint32_t count = 0;
     checkVulkan(vkGetSwapchainImagesKHR(context_.device(), swapchain_, &count, nullptr), "vkGetSwapchainImagesKHR");
     images_.resize(count);
