@@ -11,6 +11,7 @@
 #include <glm/mat3x3.hpp>
 
 #include "engine/files/error.h"
+#include "engine/files/hash_random.h"
 #include "engine/files/whole_file.h"
 
 namespace nacre {
@@ -177,13 +178,9 @@ CornellMeasurements loadCornellMeasurements(const std::filesystem::path& file)
     return result;
 }
 
-// Steele, Lea and Flood, Fast Splittable Pseudorandom Number Generators, 2014: the finaliser of SplitMix64.
 bool isKeptOfFive(size_t index)
 {
-    uint64_t z = index + 0x9E3779B97F4A7C15u;
-    z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9u;
-    z = (z ^ (z >> 27)) * 0x94D049BB133111EBu;
-    return (z ^ (z >> 31)) % 5 != 0;
+    return hashOf(index) % 5 != 0;
 }
 
 } // namespace nacre
