@@ -1,11 +1,12 @@
 #include "engine/viewer/panels.h"
 
+#include <array>
 #include <cmath>
+#include <utility>
 
 #include <imgui.h>
 
 namespace nacre {
-
 namespace {
 
 constexpr ImGuiWindowFlags kFixed = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
@@ -15,6 +16,39 @@ constexpr ImGuiWindowFlags kFixed = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFla
 Framing framingOf(const Session& session, const Stage& stage)
 {
     return resolved(session.state.framing, stage.picture, stage.area);
+}
+
+constexpr std::array kShown = {std::pair("Picture", Show::picture),   std::pair("Normals (N)", Show::normals),
+                               std::pair("Labels (L)", Show::labels), std::pair("Coverage (C)", Show::coverage),
+                               std::pair("theta h", Show::thetaH),    std::pair("theta d", Show::thetaD)};
+
+constexpr std::array kResidual = {std::pair("on", ResidualUse::on), std::pair("off", ResidualUse::off),
+                                  std::pair("alone", ResidualUse::alone)};
+
+void chooseResidualShown(Session& session)
+{
+    ImGui::AlignTextToFramePadding();
+    ImGui::TextUnformatted("Residual (D)");
+    for (const auto& [name, use] : kResidual) {
+        ImGui::SameLine();
+        if (ImGui::RadioButton(name, session.state.residual == use)) {
+            chooseResidual(session, use);
+        }
+    }
+}
+
+constexpr std::pair<const char*, const char*> kMouse[] = {
+    {"drag on the ball", "move a light"}, {"right drag", "move the chosen light, anywhere"},
+    {"drag", "move the picture"},         {"wheel", "zoom"},
+    {"double click", "fit the picture"},  {"drop a file", "surface, material, normal map, environment"}};
+
+void row(const char* keys, const char* text)
+{
+    ImGui::TableNextRow();
+    ImGui::TableNextColumn();
+    ImGui::TextUnformatted(keys);
+    ImGui::TableNextColumn();
+    ImGui::TextUnformatted(text);
 }
 
 } // namespace
@@ -72,6 +106,64 @@ bool showStatus(const Session& session, const Loader* busy, const Stage& stage)
     ImGui::End();
     ImGui::PopStyleVar();
     return isCancelled;
+}
+
+void showDisplayPanel(Session& session)
+{
+    if (!ImGui::CollapsingHeader("Display", ImGuiTreeNodeFlags_DefaultOpen)) {
+        return;
+    }
+    ViewState& state = session.state;
+    float stops = state.exposure.value_or(0);
+    ImGui::PushItemWidth(-0.38f * ImGui::GetWindowWidth());
+    if (ImGui::SliderFloat("Exposure", &stops, -8, 8, "%+.2f stops")) {
+        state.exposure = stops;
+    }
+    ImGui::PopItemWidth();
+    if (ImGui::Button("Automatic")) {
+        state.exposure.reset();
+    }
+    ImGui::SameLine();
+    bool filmic = state.toneCurve == kToneFilmic;
+    if (ImGui::Checkbox("Filmic", &filmic)) {
+        state.toneCurve = filmic ? kToneFilmic : kToneSrgb;
+    }
+    const float half = ImGui::GetCursorPosX() + 0.5f * ImGui::GetContentRegionAvail().x;
+    for (size_t i = 0; i < kShown.size(); ++i) {
+        if (ImGui::RadioButton(kShown[i].first, state.show == kShown[i].second)) {
+            state.show = kShown[i].second;
+            session.comparison = Comparison::none;
+        }
+        if (i % 2 == 0) {
+            ImGui::SameLine(half);
+        }
+    }
+    if (session.hasResidual) {
+        chooseResidualShown(session);
+    }
+}
+
+void showHelp(const glm::vec2& windowSize, float scale)
+{
+    ImGui::SetNextWindowPos({windowSize.x / 2, windowSize.y / 2}, ImGuiCond_Always, {0.5f, 0.5f});
+    ImGui::SetNextWindowBgAlpha(0.94f);
+    const ImGuiWindowFlags flags = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_AlwaysAutoResize |
+                                   ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoNav;
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {18 * scale, 14 * scale});
+    ImGui::Begin("help", nullptr, flags);
+    ImGui::SetWindowFocus();
+    if (ImGui::BeginTable("keys", 2, ImGuiTableFlags_SizingFixedFit)) {
+        for (const ActionHelp& help : actionHelp()) {
+            row(help.keys, help.text);
+        }
+        row("", "");
+        for (const auto& [mouse, text] : kMouse) {
+            row(mouse, text);
+        }
+        ImGui::EndTable();
+    }
+    ImGui::End();
+    ImGui::PopStyleVar();
 }
 
 } // namespace nacre
