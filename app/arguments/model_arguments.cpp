@@ -1,4 +1,4 @@
-#include "app/arguments/interpolation_arguments.h"
+#include "app/arguments/model_arguments.h"
 
 #include <algorithm>
 

@@ -5,7 +5,7 @@
 
 #include "app/arguments/capture_arguments.h"
 #include "app/arguments/destinations.h"
-#include "app/arguments/interpolation_arguments.h"
+#include "app/arguments/model_arguments.h"
 #include "app/commands/commands.h"
 #include "app/report/acquire_report.h"
 #include "app/report/acquisition_summary.h"

@@ -10,7 +10,7 @@
 
 #include "app/arguments/capture_arguments.h"
 #include "app/arguments/destinations.h"
-#include "app/arguments/interpolation_arguments.h"
+#include "app/arguments/model_arguments.h"
 #include "app/commands/commands.h"
 #include "app/report/acquisition_summary.h"
 #include "app/report/contact_sheet.h"

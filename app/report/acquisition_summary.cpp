@@ -12,7 +12,7 @@
 
 #include "acquisition/brdf/model_ladder.h"
 #include "acquisition/capture/capture_layouts.h"
-#include "app/arguments/interpolation_arguments.h"
+#include "app/arguments/model_arguments.h"
 #include "app/report/brdf_report.h"
 #include "engine/files/error.h"
 #include "engine/files/measures.h"

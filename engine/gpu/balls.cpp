@@ -1,4 +1,4 @@
-#include "engine/gpu/ball_cache.h"
+#include "engine/gpu/balls.h"
 
 #include <algorithm>
 #include <array>

@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "engine/gpu/ball_cache.h"
+#include "engine/gpu/balls.h"
 #include "engine/gpu/direct_frame.h"
 #include "engine/gpu/surface_textures.h"
 #include "engine/scene/false_colour.h"
