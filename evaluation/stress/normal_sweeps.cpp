@@ -26,20 +26,7 @@ Degradation baseOf(const StressSubject& subject)
     return base;
 }
 
-// The values of one member of Degradation.
-template <class Member>
-Sweep degradationSweep(const StressSubject& subject, const char* name, const char* unit, Member Degradation::*member,
-                       const std::vector<double>& values, double factor)
-{
-    Sweep sweep{name, unit, {}};
-    for (const double value : values) {
-        Degradation degradation = baseOf(subject);
-        degradation.*member = static_cast<Member>(value * factor);
-        sweep.settings.push_back(
-            {fmt::format("{:g}", value), [&subject, degradation] { return degraded(subject.clean, degradation); }});
-    }
-    return sweep;
-}
+using Settings = std::vector<Sweep::Setting>;
 
 Sweep::Setting relitSetting(const StressSubject& subject, const std::string& value, const std::vector<Light>& lights)
 {
@@ -52,115 +39,36 @@ Sweep::Setting selectedSetting(const StressSubject& subject, const std::string& 
     return {value, [&subject, chosen] { return degraded(selectPhotographs(subject.clean, chosen), baseOf(subject)); }};
 }
 
-Sweep noiseSweep(const StressSubject& subject)
+Settings specularSettings(const StressSubject& subject)
 {
-    return degradationSweep(subject, "noise", "% of the 99th percentile", &Degradation::noise, {0.2, 1, 2, 5, 10},
-                            0.01);
-}
-
-Sweep quantisationSweep(const StressSubject& subject)
-{
-    return degradationSweep(subject, "quantisation", "bits", &Degradation::bits, {16, 8, 6, 5, 4}, 1);
-}
-
-Sweep saturationSweep(const StressSubject& subject)
-{
-    return degradationSweep(subject, "saturation", "% of the values", &Degradation::overexposedShare, {0, 2, 5, 15, 35},
-                            0.01);
-}
-
-Sweep shadowSweep(const StressSubject& subject)
-{
-    return degradationSweep(subject, "shadow", "% of each pixel's lights", &Degradation::shadowShare,
-                            {0, 10, 20, 35, 50}, 0.01);
-}
-
-Sweep directionSweep(const StressSubject& subject)
-{
-    return degradationSweep(subject, "direction", "degrees off", &Degradation::directionErrorDegrees,
-                            {0, 0.5, 1, 2, 5, 10}, 1);
-}
-
-Sweep irradianceSweep(const StressSubject& subject)
-{
-    return degradationSweep(subject, "irradiance", "% off", &Degradation::irradianceError, {0, 2, 5, 10, 30}, 0.01);
-}
-
-// A setting per value, what it means told by `set`.
-template <class Set>
-Sweep setSweep(const StressSubject& subject, const char* name, const char* unit, const std::vector<double>& values,
-               const Set& set)
-{
-    Sweep sweep{name, unit, {}};
-    for (const double value : values) {
-        Degradation degradation = baseOf(subject);
-        set(degradation, value);
-        sweep.settings.push_back(
-            {fmt::format("{:g}", value), [&subject, degradation] { return degraded(subject.clean, degradation); }});
-    }
-    return sweep;
-}
-
-Sweep nearSweep(const StressSubject& subject)
-{
-    return degradationSweep(subject, "near", "object widths to the lights", &Degradation::nearWidths,
-                            {100, 20, 10, 5, 2.5, 1.2}, 1);
-}
-
-Sweep encodedSweep(const StressSubject& subject)
-{
-    return degradationSweep(subject, "encoded", "gamma left in the photographs", &Degradation::transferExponent,
-                            {1, 1.1, 1.2, 1.5, 1.8, 2.2}, 1);
-}
-
-Sweep decodedSweep(const StressSubject& subject)
-{
-    return setSweep(subject, "decoded", "gamma taken from linear photographs", {1, 1.1, 1.2, 1.5, 1.8, 2.2},
-                    [](Degradation& degradation, double gamma) { degradation.transferExponent = 1 / gamma; });
-}
-
-Sweep sphereSweep(const StressSubject& subject)
-{
-    return degradationSweep(subject, "sphere", "% of its radius, its centre off", &Degradation::sphereShift,
-                            {0, 1, 2, 5, 10, 20}, 0.01);
-}
-
-Sweep flippedSweep(const StressSubject& subject)
-{
-    return setSweep(subject, "flipped", "y of the lights, and so green", {0, 1},
-                    [](Degradation& degradation, double flipped) { degradation.flipped = flipped != 0; });
-}
-
-Sweep specularSweep(const StressSubject& subject)
-{
-    Sweep sweep{"specular", "% of the reflectance", {}};
+    Settings settings;
     for (const int percent : {0, 10, 25, 50, 75, 100}) {
-        sweep.settings.push_back(
-            {std::to_string(percent),
-             [&subject, percent] { return degraded(subject.reglazed(0.01 * percent), baseOf(subject)); }, true});
+        settings.push_back({std::to_string(percent),
+                            [&subject, percent] { return degraded(subject.reglazed(0.01 * percent), baseOf(subject)); },
+                            true});
     }
-    return sweep;
+    return settings;
 }
 
-Sweep countSweep(const StressSubject& subject)
+Settings countSettings(const StressSubject& subject)
 {
-    Sweep sweep{"lights", "well-spread lights", {}};
+    Settings settings;
     const size_t there = subject.clean.lights.size();
     for (const size_t count : {96, 48, 24, 12, 8, 6, 4, 3}) {
         const std::string value = std::to_string(count);
         if (subject.relit) {
-            sweep.settings.push_back(relitSetting(subject, value, spreadLights(count, kCapDegrees)));
+            settings.push_back(relitSetting(subject, value, spreadLights(count, kCapDegrees)));
         } else if (count <= there) {
-            sweep.settings.push_back(selectedSetting(subject, value, chosenLights(subject.clean.lights, {count, 0})));
+            settings.push_back(selectedSetting(subject, value, chosenLights(subject.clean.lights, {count, 0})));
         }
     }
-    return sweep;
+    return settings;
 }
 
 // Photographs that are lost by chance, in the order of a seeded shuffle.
-Sweep missingSweep(const StressSubject& subject)
+Settings missingSettings(const StressSubject& subject)
 {
-    Sweep sweep{"missing", "% of the photographs at random", {}};
+    Settings settings;
     std::vector<size_t> order(subject.clean.lights.size());
     for (size_t i = 0; i < order.size(); ++i) {
         order[i] = i;
@@ -171,56 +79,91 @@ Sweep missingSweep(const StressSubject& subject)
         const size_t lost = order.size() * percent / 100;
         std::vector<size_t> kept(order.begin() + lost, order.end());
         std::sort(kept.begin(), kept.end());
-        sweep.settings.push_back(selectedSetting(subject, std::to_string(percent), kept));
+        settings.push_back(selectedSetting(subject, std::to_string(percent), kept));
     }
-    return sweep;
+    return settings;
 }
 
-Sweep layoutSweep(const StressSubject& subject)
+Settings layoutSettings(const StressSubject& subject)
 {
     const size_t n = subject.clean.lights.size();
     const float side = glm::radians(40.0f);
-    return {"layout",
-            "",
-            {relitSetting(subject, "spread", spreadLights(n, kCapDegrees)),
-             relitSetting(subject, "ring", ringLights(n, 45)), relitSetting(subject, "cross", crossedLights(n)),
-             relitSetting(subject, "narrow-ring", ringLights(n, 10)),
-             relitSetting(subject, "one-side", spreadLights(n, 15, {std::sin(side), 0, std::cos(side)})),
-             relitSetting(subject, "line", arcLights(n, 0))}};
+    return {relitSetting(subject, "spread", spreadLights(n, kCapDegrees)),
+            relitSetting(subject, "ring", ringLights(n, 45)),
+            relitSetting(subject, "cross", crossedLights(n)),
+            relitSetting(subject, "narrow-ring", ringLights(n, 10)),
+            relitSetting(subject, "one-side", spreadLights(n, 15, {std::sin(side), 0, std::cos(side)})),
+            relitSetting(subject, "line", arcLights(n, 0))};
 }
 
-Sweep coplanarSweep(const StressSubject& subject)
+Settings coplanarSettings(const StressSubject& subject)
 {
-    Sweep sweep{"coplanar", "degrees beside one plane", {}};
+    Settings settings;
     for (const double degrees : {20.0, 10.0, 5.0, 2.0, 1.0, 0.5}) {
-        sweep.settings.push_back(
+        settings.push_back(
             relitSetting(subject, fmt::format("{:g}", degrees), arcLights(subject.clean.lights.size(), degrees)));
     }
-    return sweep;
+    return settings;
 }
 
+// A setting for each value, what it means told by `set`; or settings of its own.
 struct NamedSweep {
     const char* name;
-    Sweep (*make)(const StressSubject&);
-    bool needsOtherLights;
+    const char* unit;
+    std::vector<double> values;
+    void (*set)(Degradation&, double value);
+    Settings (*settings)(const StressSubject&) = nullptr;
+    bool needsOtherLights = false;
+
+    Sweep of(const StressSubject& subject) const
+    {
+        Sweep sweep{name, unit, settings ? settings(subject) : Settings{}};
+        for (const double value : values) {
+            Degradation degradation = baseOf(subject);
+            set(degradation, value);
+            sweep.settings.push_back(
+                {fmt::format("{:g}", value), [&subject, degradation] { return degraded(subject.clean, degradation); }});
+        }
+        return sweep;
+    }
 };
 
-constexpr NamedSweep kSweeps[] = {{"noise", noiseSweep, false},
-                                  {"quantisation", quantisationSweep, false},
-                                  {"saturation", saturationSweep, false},
-                                  {"shadow", shadowSweep, false},
-                                  {"direction", directionSweep, false},
-                                  {"irradiance", irradianceSweep, false},
-                                  {"lights", countSweep, false},
-                                  {"missing", missingSweep, false},
-                                  {"near", nearSweep, false},
-                                  {"encoded", encodedSweep, false},
-                                  {"decoded", decodedSweep, false},
-                                  {"sphere", sphereSweep, false},
-                                  {"flipped", flippedSweep, false},
-                                  {"layout", layoutSweep, true},
-                                  {"coplanar", coplanarSweep, true},
-                                  {"specular", specularSweep, true}};
+const NamedSweep kSweeps[] = {
+    {"noise", "% of the 99th percentile", {0.2, 1, 2, 5, 10}, [](Degradation& d, double v) { d.noise = v * 0.01; }},
+    {"quantisation", "bits", {16, 8, 6, 5, 4}, [](Degradation& d, double v) { d.bits = static_cast<int>(v); }},
+    {"saturation",
+     "% of the values",
+     {0, 2, 5, 15, 35},
+     [](Degradation& d, double v) { d.overexposedShare = v * 0.01; }},
+    {"shadow",
+     "% of each pixel's lights",
+     {0, 10, 20, 35, 50},
+     [](Degradation& d, double v) { d.shadowShare = v * 0.01; }},
+    {"direction", "degrees off", {0, 0.5, 1, 2, 5, 10}, [](Degradation& d, double v) { d.directionErrorDegrees = v; }},
+    {"irradiance", "% off", {0, 2, 5, 10, 30}, [](Degradation& d, double v) { d.irradianceError = v * 0.01; }},
+    {"lights", "well-spread lights", {}, nullptr, countSettings},
+    {"missing", "% of the photographs at random", {}, nullptr, missingSettings},
+    {"near",
+     "object widths to the lights",
+     {100, 20, 10, 5, 2.5, 1.2},
+     [](Degradation& d, double v) { d.nearWidths = v; }},
+    {"encoded",
+     "gamma left in the photographs",
+     {1, 1.1, 1.2, 1.5, 1.8, 2.2},
+     [](Degradation& d, double v) { d.transferExponent = v; }},
+    {"decoded",
+     "gamma taken from linear photographs",
+     {1, 1.1, 1.2, 1.5, 1.8, 2.2},
+     [](Degradation& d, double v) { d.transferExponent = 1 / v; }},
+    {"sphere",
+     "% of its radius, its centre off",
+     {0, 1, 2, 5, 10, 20},
+     [](Degradation& d, double v) { d.sphereShift = v * 0.01; }},
+    {"flipped", "y of the lights, and so green", {0, 1}, [](Degradation& d, double v) { d.flipped = v != 0; }},
+    {"layout", "", {}, nullptr, layoutSettings, true},
+    {"coplanar", "degrees beside one plane", {}, nullptr, coplanarSettings, true},
+    {"specular", "% of the reflectance", {}, nullptr, specularSettings, true},
+};
 
 } // namespace
 
@@ -275,12 +218,12 @@ std::vector<Sweep> normalSweeps(const StressSubject& subject, const std::vector<
             throw Error("", fmt::format("sweep {} needs lights that the photographs do not have", name),
                         "`synthetic`, or another sweep", Error::kUsage);
         }
-        sweeps.push_back(found->make(subject));
+        sweeps.push_back(found->of(subject));
     }
     if (names.empty()) {
         for (const NamedSweep& sweep : kSweeps) {
             if (subject.relit || !sweep.needsOtherLights) {
-                sweeps.push_back(sweep.make(subject));
+                sweeps.push_back(sweep.of(subject));
             }
         }
     }
