@@ -8,6 +8,7 @@
 #include "assets/targets.h"
 #include "engine/files/error.h"
 #include "engine/files/stopwatch.h"
+#include "engine/files/text_files.h"
 #include "engine/gpu/context.h"
 #include "engine/gpu/texture.h"
 #include "engine/scene/light_source.h"
@@ -215,10 +216,7 @@ TargetReport targetOfSpecification(const TargetCommandArguments& arguments)
 bool isPicture(const fs::path& file)
 {
     constexpr std::array kExtensions = {".png", ".exr", ".jpg", ".jpeg", ".tif", ".tiff", ".tga", ".hdr", ".bmp"};
-    std::string extension = file.extension().string();
-    std::transform(extension.begin(), extension.end(), extension.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return std::find(kExtensions.begin(), kExtensions.end(), extension) != kExtensions.end();
+    return std::find(kExtensions.begin(), kExtensions.end(), lowerCase(file.extension().string())) != kExtensions.end();
 }
 
 } // namespace

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <charconv>
 #include <cstring>
 
@@ -10,6 +9,7 @@
 #include <fmt/ranges.h>
 
 #include "engine/files/error.h"
+#include "engine/files/text_files.h"
 #include "engine/gpu/check.h"
 #include "engine/gpu/instance.h"
 
@@ -80,12 +80,6 @@ std::string missingFrom(VkPhysicalDevice device, uint32_t apiVersion)
     return fmt::format("{}", fmt::join(missing, ", "));
 }
 
-bool containsIgnoringCase(const std::string& text, const std::string& part)
-{
-    const auto sameLetter = [](unsigned char a, unsigned char b) { return std::tolower(a) == std::tolower(b); };
-    return std::search(text.begin(), text.end(), part.begin(), part.end(), sameLetter) != text.end();
-}
-
 std::string numberedNames(const std::vector<DeviceInfo>& devices)
 {
     std::vector<std::string> names;
@@ -111,8 +105,9 @@ size_t selectedDevice(const std::vector<DeviceInfo>& devices, const std::string&
     size_t number = devices.size();
     const char* end = selector.data() + selector.size();
     if (const auto parsed = std::from_chars(selector.data(), end, number); parsed.ptr != end) {
-        const auto named = std::find_if(devices.begin(), devices.end(),
-                                        [&](const auto& d) { return containsIgnoringCase(d.name, selector); });
+        const auto named = std::find_if(devices.begin(), devices.end(), [&](const auto& d) {
+            return lowerCase(d.name).find(lowerCase(selector)) != std::string::npos;
+        });
         number = static_cast<size_t>(named - devices.begin());
     }
     if (number >= devices.size()) {

@@ -11,6 +11,7 @@
 #include <imgui.h>
 
 #include "engine/files/error.h"
+#include "engine/files/stopwatch.h"
 #include "engine/files/whole_file.h"
 #include "engine/gpu/renderer.h"
 #include "engine/gpu/texture.h"
@@ -62,11 +63,6 @@ constexpr int kFramesToSettle = 3; // ImGui takes a few
 constexpr size_t kFewLights = 16;  // of which the light ball's few pixels are drawn sooner than another ball is made
 constexpr const char* kStateAttribute = "nacre:state"; // of a screenshot: its state file's text
 
-double secondsSince(std::chrono::steady_clock::time_point start)
-{
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
-
 std::filesystem::path stateFileOf(std::filesystem::path picture)
 {
     return picture.replace_extension(".json");
@@ -101,8 +97,6 @@ public:
     void run();
 
 private:
-    using Clock = std::chrono::steady_clock;
-
     double waitingTime() const;
     void keepPace();
     void takeEvents(const WindowEvents& events);
@@ -136,7 +130,7 @@ private:
     glm::vec3 view_{0, 0, 1};
 
     int framesLeft_ = kFramesToSettle;
-    Clock::time_point lastFrame_ = Clock::now();
+    Stopwatch sinceFrame_;    // that was drawn last
     double frameSeconds_ = 0; // of one, smoothed
     size_t shownFrames_ = 0;
 
@@ -189,7 +183,7 @@ double ViewerWindow::waitingTime() const
 
 void ViewerWindow::keepPace()
 {
-    const double left = 1 / kMostFramesPerSecond - secondsSince(lastFrame_);
+    const double left = 1 / kMostFramesPerSecond - sinceFrame_.seconds();
     if (framesLeft_ > 0 && left > 0) {
         std::this_thread::sleep_for(std::chrono::duration<double>(left));
     }
@@ -366,7 +360,7 @@ void ViewerWindow::describePanels(const Stage& stage)
 
 void ViewerWindow::drawFrame()
 {
-    lastFrame_ = Clock::now();
+    sinceFrame_.lap();
     --framesLeft_;
     drawPictures();
     placed_.clear();
@@ -384,7 +378,7 @@ void ViewerWindow::drawFrame()
         framesLeft_ = kFramesToSettle;
     }
     ++shownFrames_;
-    showTitle(secondsSince(lastFrame_));
+    showTitle(sinceFrame_.seconds());
     if (session_.playing) {
         play(session_, static_cast<float>(std::max(frameSeconds_, 1 / kMostFramesPerSecond)));
         framesLeft_ = std::max(framesLeft_, 1);
