@@ -3,7 +3,6 @@
 #include <unistd.h>
 
 #include "engine/files/error.h"
-#include "engine/files/whole_file.h"
 
 namespace nacre {
 namespace fs = std::filesystem;

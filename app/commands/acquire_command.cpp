@@ -13,7 +13,6 @@
 #include "app/report/progress_line.h"
 #include "engine/files/error.h"
 #include "engine/files/stopwatch.h"
-#include "engine/files/whole_file.h"
 
 namespace nacre {
 
@@ -73,9 +72,7 @@ void checkOutputs(const AcquireArguments& arguments)
 // The summary and the pictures that were asked for.
 void writeExtras(const CaptureArguments& common, const Capture& given, const Acquisition& result)
 {
-    if (!common.json.empty()) {
-        writeTextFile(common.json, summaryOf(given, result).dump(2) + "\n");
-    }
+    writeSummary(common.json, summaryOf(given, result));
     if (!common.debugFolder.empty()) {
         makeDebugFolder(common.debugFolder);
         saveNormalPictures(common.debugFolder, result.surface.normals);

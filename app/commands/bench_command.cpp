@@ -10,8 +10,8 @@
 #include "app/commands/commands.h"
 #include "engine/brdf/brdf_tabulation.h"
 #include "engine/files/error.h"
+#include "engine/files/measures.h"
 #include "engine/files/stopwatch.h"
-#include "engine/files/whole_file.h"
 #include "engine/gpu/floor_pass.h"
 #include "engine/gpu/renderer.h"
 #include "evaluation/rendering/bench_surfaces.h"
@@ -40,12 +40,6 @@ double milliseconds(const std::function<void()>& call)
     return 1000 * secondsOf(call);
 }
 
-double median(std::vector<double> values)
-{
-    std::nth_element(values.begin(), values.begin() + values.size() / 2, values.end());
-    return values[values.size() / 2];
-}
-
 struct Measured {
     double ms = 0;       // median of the wall clock around the call, which returns once the device is done
     double perFloor = 0; // median of its ratio to the floor drawn right after it
@@ -54,15 +48,15 @@ struct Measured {
 // The first two rounds are warm-up, in which shaders are compiled.
 Measured measured(int repeats, const std::function<void()>& call, const std::function<void()>& floor)
 {
-    std::vector<double> times, ratios;
+    std::vector<float> times, ratios;
     for (int i = -2; i < repeats; ++i) {
         const double time = milliseconds(call), under = floor ? milliseconds(floor) : 1;
         if (i >= 0) {
-            times.push_back(time);
-            ratios.push_back(time / under);
+            times.push_back(static_cast<float>(time));
+            ratios.push_back(static_cast<float>(time / under));
         }
     }
-    return {median(times), median(ratios)};
+    return {quantile(times, 0.5), quantile(ratios, 0.5)};
 }
 
 class Bench {
@@ -250,9 +244,7 @@ void runBench(const BenchArguments& arguments)
                     fmt::format("0 to {}", kMostResidualComponents), Error::kUsage);
     }
     const nlohmann::ordered_json results = arguments.bake ? runBakeBench() : Bench(arguments).run();
-    if (!arguments.json.empty()) {
-        writeTextFile(arguments.json, results.dump(2) + "\n");
-    }
+    writeSummary(arguments.json, results);
 }
 
 } // namespace

@@ -212,9 +212,7 @@ void runScattered(const BrdfArguments& arguments)
     if (!arguments.quiet) {
         print(report);
     }
-    if (!arguments.json.empty()) {
-        writeTextFile(arguments.json, jsonOf(report).dump(2) + "\n");
-    }
+    writeSummary(arguments.json, jsonOf(report));
 }
 
 void runBrdf(const BrdfArguments& arguments)
@@ -245,9 +243,7 @@ void runBrdf(const BrdfArguments& arguments)
     for (const std::filesystem::path& file : arguments.exports) {
         exportTo(file, report.source, arguments);
     }
-    if (!arguments.json.empty()) {
-        writeTextFile(arguments.json, jsonOf(report).dump(2) + "\n");
-    }
+    writeSummary(arguments.json, jsonOf(report));
 }
 
 } // namespace

@@ -6,11 +6,11 @@
 #include <nlohmann/json.hpp>
 
 #include "acquisition/capture/capture_maps.h"
+#include "app/arguments/destinations.h"
 #include "app/commands/commands.h"
 #include "engine/files/error.h"
 #include "engine/files/image.h"
 #include "engine/files/measures.h"
-#include "engine/files/whole_file.h"
 
 namespace nacre {
 
@@ -88,7 +88,7 @@ void writeJson(const CompareArguments& arguments, const Comparison& found)
                                  {"largestCodeDifference", found.codes.largest},
                                  {"codeTolerance", arguments.codeTolerance},
                                  {"shareBeyondTolerance", found.codes.share()}};
-    writeTextFile(arguments.json, json.dump(2) + "\n");
+    writeSummary(arguments.json, json);
 }
 
 Error checkFailed(const CompareArguments& arguments, const std::string& figure, const std::string& expected)
@@ -106,9 +106,7 @@ void runCompare(const CompareArguments& arguments)
     fmt::print("PSNR {:.2f} dB of radiance, peak {:.4g}\n", found.psnr, found.peak);
     fmt::print("SSIM {:.5f}; codes differ by {} of 255 at most, {:.3f} % of the pixels by more than {}\n",
                found.structuralSimilarity, found.codes.largest, 100 * found.codes.share(), arguments.codeTolerance);
-    if (!arguments.json.empty()) {
-        writeJson(arguments, found);
-    }
+    writeJson(arguments, found);
     if (found.psnr < arguments.atLeast) {
         throw checkFailed(arguments, fmt::format("PSNR {:.2f} dB", found.psnr),
                           fmt::format("at least {:.2f} dB", arguments.atLeast));

@@ -16,7 +16,6 @@
 #include "app/report/contact_sheet.h"
 #include "app/report/progress_line.h"
 #include "engine/files/error.h"
-#include "engine/files/whole_file.h"
 #include "evaluation/held_out/held_out.h"
 
 namespace nacre {
@@ -254,9 +253,7 @@ void runEvaluate(EvaluateArguments& arguments)
     if (!common.quiet) {
         fmt::print("{}", describe(evaluation, error));
     }
-    if (!common.json.empty()) {
-        writeTextFile(common.json, documentOf(evaluation, error).dump(2) + "\n");
-    }
+    writeSummary(common.json, documentOf(evaluation, error));
     if (!arguments.output.empty()) {
         writeSheet(arguments.output, evaluation);
     }

@@ -17,7 +17,6 @@
 #include "engine/files/error.h"
 #include "engine/files/parallel_for.h"
 #include "engine/files/stopwatch.h"
-#include "engine/files/whole_file.h"
 #include "engine/materials/material_specification.h"
 #include "engine/scene/ball.h"
 #include "engine/scene/coverage.h"
@@ -301,9 +300,7 @@ void listMaterials(const MaterialsArguments& arguments)
             fmt::print("wrote        {}\n", arguments.output.string());
         }
     }
-    if (!arguments.json.empty()) {
-        writeTextFile(arguments.json, jsonOf(entries).dump(2) + "\n");
-    }
+    writeSummary(arguments.json, jsonOf(entries));
 }
 
 void runMaterials(const MaterialsArguments& arguments)

@@ -10,7 +10,6 @@
 #include "app/report/debug_pictures.h"
 #include "app/report/progress_line.h"
 #include "engine/files/error.h"
-#include "engine/files/whole_file.h"
 #include "evaluation/held_out/held_out_measures.h"
 
 namespace nacre {
@@ -66,9 +65,7 @@ void runNormals(NormalsArguments& arguments)
                        error.mean, error.median, error.percentile95, truth.string(), error.pixels, error.missing);
         }
     }
-    if (!common.json.empty()) {
-        writeTextFile(common.json, summary.dump(2) + "\n");
-    }
+    writeSummary(common.json, summary);
     if (!common.debugFolder.empty()) {
         makeDebugFolder(common.debugFolder);
         saveNormalPictures(common.debugFolder, result.normals);

@@ -81,8 +81,8 @@ CellSize cellSizeOf(const TransferSources& sources)
 }
 
 // Draws everything that one renderer has to: RIG_MATERIAL_on_TARGET.png (with frames numbered, and the same as .webp),
-// RIG_MATERIAL_ball.png, and sheet_RIG.png with all of a rig: materials down, the ball and the targets across; sheet.png
-// with all of several rigs. The folder exists.
+// RIG_MATERIAL_ball.png, and sheet_RIG.png with all of a rig: materials down, the ball and the targets across;
+// sheet.png with all of several rigs. The folder exists.
 class Studio {
 public:
     Studio(const fs::path& folder, const TransferSources& sources, const RenderOutput& output, const Context& context)
