@@ -18,7 +18,7 @@ struct StressRow {
     std::string method; // of normals; "brdf-" and the interpolation for a BRDF by the normals of `auto`
     bool isBrdf = false;
     // Normals: mean degrees, a pixel without one counting 90, all of them where the program refused. BRDF: % of the
-    // radiance, see stress_brdf.h.
+    // radiance, over the lit observations.
     double error = 0;
     AngularError angles; // of normals
     double seconds = 0;
