@@ -29,8 +29,6 @@ public:
     glm::dvec3 gradient(const glm::dvec3& p) const;
     // Unit, outwards, at a point of the surface.
     glm::dvec3 normal(const glm::dvec3& p) const;
-    // Of a sphere about the origin that holds the solid.
-    double boundingRadius() const { return boundingRadius_; }
 
     // z of the surface's point nearest to a camera that looks along -z at (x, y); empty beside the solid.
     std::optional<double> depthTowardsCamera(double x, double y) const;
@@ -43,8 +41,8 @@ private:
 
     double radius_;
     std::vector<Bump> bumps_;
-    double boundingRadius_;
-    double slope_; // no step of length s changes outside() by more than slope_ * s
+    double boundingRadius_; // of a sphere about the origin that holds the solid
+    double slope_;          // no step of length s changes outside() by more than slope_ * s
 };
 
 // Both fill most of a picture whose shorter side spans [-1, 1].

@@ -29,12 +29,6 @@ NormalMap wavyNormals(int width, int height)
     return map;
 }
 
-// Multiplicative hashing (Knuth, The Art of Computer Programming, volume 3, 1998, section 6.4).
-uint32_t hashed(uint64_t value)
-{
-    return static_cast<uint32_t>(value * 0x9E3779B97F4A7C15u >> 32);
-}
-
 constexpr size_t kSamples = 1000000;
 constexpr size_t kPlanes = 96;
 constexpr int kNeighbours = 25;
@@ -153,11 +147,11 @@ ResidualLayer benchResidual(const Surface& surface, int components, int captured
         layer.nodes.push_back(lightPlanePoint(light.direction));
     }
     for (size_t i = 0; i < components * layer.terms(); ++i) {
-        layer.weights.emplace_back(static_cast<float>(hashed(i) % 1000) / 5000 - 0.1f);
+        layer.weights.emplace_back(static_cast<float>(hashOf(i) % 1000) / 5000 - 0.1f);
     }
     layer.codes.resize(layer.layers() * layer.pixelCount() * kComponentsPerTexel);
     for (size_t i = 0; i < layer.codes.size(); ++i) {
-        layer.codes[i] = static_cast<uint8_t>(hashed(i));
+        layer.codes[i] = static_cast<uint8_t>(hashOf(i));
     }
     return layer;
 }
