@@ -5,7 +5,6 @@
 
 #include <glm/geometric.hpp>
 
-#include "acquisition/brdf/brdf_samples.h"
 #include "acquisition/normals/intensities.h"
 #include "engine/files/parallel_for.h"
 

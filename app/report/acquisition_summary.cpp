@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
-#include <string>
 
 #include <fmt/format.h>
 #include <glm/trigonometric.hpp>

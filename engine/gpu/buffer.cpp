@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 
 #include "engine/files/error.h"
-#include "engine/gpu/check.h"
 
 namespace nacre {
 namespace {

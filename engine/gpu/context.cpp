@@ -1,7 +1,6 @@
 #include "engine/gpu/context.h"
 
 #include "engine/files/error.h"
-#include "engine/gpu/check.h"
 
 namespace nacre {
 namespace {

@@ -1,10 +1,8 @@
 #include "engine/gpu/pass.h"
 
 #include <array>
-#include <vector>
 
 #include "disc_vert.h"
-#include "engine/gpu/check.h"
 #include "fullscreen_vert.h"
 
 namespace nacre {

@@ -10,7 +10,6 @@
 
 #include "engine/files/error.h"
 #include "engine/gpu/buffer.h"
-#include "engine/gpu/check.h"
 
 namespace nacre {
 namespace {

@@ -10,7 +10,6 @@
 
 #include "engine/files/error.h"
 #include "engine/gpu/texture.h"
-#include "engine/lights/environment.h"
 #include "engine/lights/light_files.h"
 #include "engine/lights/light_rigs.h"
 #include "engine/materials/material_specification.h"

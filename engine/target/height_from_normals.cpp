@@ -1,6 +1,5 @@
 #include "engine/target/height_from_normals.h"
 
-#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <numeric>

@@ -12,7 +12,6 @@
 #include "engine/files/parallel_for.h"
 #include "engine/gpu/buffer.h"
 #include "engine/gpu/pass.h"
-#include "engine/surface/surface.h"
 #include "engine/target/normal_map_scale.h"
 #include "mesh_view_frag.h"
 #include "mesh_view_vert.h"

@@ -4,7 +4,6 @@
 
 #include <fmt/format.h>
 
-#include "engine/target/height_from_normals.h"
 #include "engine/target/normal_map_scale.h"
 
 namespace nacre {

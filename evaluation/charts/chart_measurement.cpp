@@ -4,12 +4,10 @@
 
 #include <fmt/format.h>
 
-#include "acquisition/chain/acquire.h"
 #include "acquisition/chain/material_albedo.h"
 #include "acquisition/segmentation/segmentation.h"
 #include "engine/files/error.h"
 #include "engine/files/stopwatch.h"
-#include "evaluation/charts/chart_settings.h"
 #include "evaluation/held_out/held_out_measures.h"
 
 namespace nacre {

@@ -10,7 +10,6 @@
 #include "engine/files/measures.h"
 #include "engine/files/parallel_for.h"
 #include "engine/files/stopwatch.h"
-#include "evaluation/held_out/held_out_measures.h"
 
 namespace nacre {
 

@@ -6,7 +6,6 @@
 
 #include "acquisition/capture/capture_maps.h"
 #include "acquisition/lights/sphere_outline.h"
-#include "engine/files/measures.h"
 #include "engine/scene/reference.h"
 
 namespace nacre {

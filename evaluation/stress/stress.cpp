@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
-#include <vector>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -14,7 +13,6 @@
 #include "acquisition/brdf/bake.h"
 #include "acquisition/brdf/brdf_samples.h"
 #include "acquisition/capture/observations.h"
-#include "acquisition/chain/acquire_options.h"
 #include "acquisition/chain/chosen_method.h"
 #include "acquisition/checks/height_consistency.h"
 #include "acquisition/lights/lights.h"
