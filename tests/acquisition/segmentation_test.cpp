@@ -101,6 +101,7 @@ TEST(SegmentationSlow, OneMaterialIsNotSplitByShadowsHighlightsOrAMetalsShine)
                                  "ggx:diffuse=0.01,0.01,0.01;specular=0.9,0.6,0.3;alpha=0.3"}) {
         const TempFolder folder;
         SynthOptions synth = threeMaterials();
+        synth.width = synth.height = 96;
         synth.material = material;
         synth.patches.clear();
         const Acquisition result = acquire(synthesise(folder, synth).capture, finding(), kSilent);
@@ -138,6 +139,7 @@ TEST(SegmentationSlow, ThreeMaterialsRenderThePhotographBetterThanOne)
 {
     const TempFolder folder;
     SynthOptions synth = threeMaterials();
+    synth.width = synth.height = 96;
     synth.shadows = false; // of which no BRDF knows
     const Capture capture = synthesise(folder, synth).capture;
     AcquireOptions options = finding(), one = finding();
@@ -221,7 +223,7 @@ TEST(SegmentationSlow, SameBytesForOneAndTwoThreadsAndAnyBudget)
 {
     const TempFolder folder;
     SynthOptions synth = threeMaterials();
-    synth.width = synth.height = 64;
+    synth.width = synth.height = 48;
     synth.lights = 12;
     const Capture capture = synthesise(folder, synth).capture;
     AcquireOptions one = finding(), two = finding();
