@@ -5,7 +5,7 @@
 
 #include "acquisition/chain/acquire.h"
 #include "app/arguments/destinations.h"
-#include "app/arguments/residual_arguments.h"
+#include "app/arguments/model_arguments.h"
 #include "app/commands/commands.h"
 #include "app/report/acquisition_summary.h"
 #include "app/report/contact_sheet.h"
