@@ -157,7 +157,12 @@ Capture CalibrationArguments::load()
     if (!offset.empty()) {
         capture.offset = offsetChoiceOf(offset);
     }
-    return loadCapture(folder, capture);
+    Capture loaded = loadCapture(folder, capture);
+    if (loaded.lights.empty() && !loaded.mirrorSphere) {
+        throw Error(folder, "says nothing of its lights",
+                    "light directions, photographs of a mirror sphere (--mirror-sphere DIR), or a rig (--rig FILE)");
+    }
+    return loaded;
 }
 
 CalibrationOptions CalibrationArguments::calibrationOptions() const

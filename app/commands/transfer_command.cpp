@@ -202,10 +202,11 @@ void print(const std::vector<TransferPicture>& pictures)
     }
     for (const TransferPicture& p : pictures) {
         const std::string name = fmt::format("{}: {}, {}", p.rig, p.row, p.target);
-        const std::string share = p.unmeasured <= 0 ? ""
-                                                    : fmt::format("{:5.1f} % of the lit pixels ask for directions that "
-                                                                  "were not measured",
-                                                                  100 * p.unmeasured);
+        const std::string share = p.unmeasured <= 0
+                                      ? ""
+                                      : fmt::format("{:5.1f} % of the lit pixels lie outside the measured "
+                                                    "directions",
+                                                    100 * p.unmeasured);
         fmt::print("{:<{}}  {:6.2f} s  {}\n", name, widest + 4, p.seconds, share);
     }
 }

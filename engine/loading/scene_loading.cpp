@@ -227,8 +227,8 @@ void noteUnmeasured(const Scene& scene)
     const UnmeasuredShare share = unmeasuredShare(scene);
     if (share.pixels > 0) {
         fmt::print(stderr,
-                   "nacre: note: {} of the lit pixels ({} of their light by n.l) ask for directions that were not "
-                   "measured: the nearest that were answer, the picture of the coverage hatches them\n",
+                   "nacre: note: {} of the lit pixels ({} of their light by n.l) lie outside the measured "
+                   "directions, where the BRDF is extrapolated; the coverage picture marks them\n",
                    percentage(share.pixels), percentage(share.light));
     }
 }

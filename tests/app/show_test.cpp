@@ -83,7 +83,7 @@ TEST_F(ShowTest, SaysWhatShareWasNotMeasured)
     const ProgramRun transferred =
         render("c.png", {"--onto", path("s.nacre"), "--light", "1,0,-0.2", "--light", "0,0,1"});
     EXPECT_EQ(transferred.exitCode, 0);
-    EXPECT_NE(transferred.err.find("the coverage hatches them"), std::string::npos) << transferred.err;
+    EXPECT_NE(transferred.err.find("the coverage picture marks them"), std::string::npos) << transferred.err;
     EXPECT_EQ(render("d.png", {"--light", "1,0,-0.2", "--quiet"}).err, "");
 }
 
