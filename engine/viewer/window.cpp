@@ -270,8 +270,7 @@ void Swapchain::makeSurface()
         "vkGetPhysicalDeviceSurfaceSupportKHR");
     if (!presents) {
         vkDestroySurfaceKHR(context_.instance(), surface_, nullptr);
-        throw Error({}, "the Vulkan device " + context_.info().name + " cannot draw in this window",
-                    "another device");
+        throw Error({}, "the Vulkan device " + context_.info().name + " cannot draw in this window", "another device");
     }
 }
 
