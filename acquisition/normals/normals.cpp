@@ -85,7 +85,7 @@ NormalMethod normalMethodFromName(const std::string& name)
             return method.method;
         }
     }
-    throw Error("", fmt::format("--normals {} is no method", name), "one of " + normalMethodNames(), Error::kUsage);
+    throw Error("", fmt::format("'{}' is no method for normals", name), "one of " + normalMethodNames(), Error::kUsage);
 }
 
 std::string nameOf(NormalMethod method)
