@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <exception>
+#include <map>
 #include <numeric>
 #include <optional>
 #include <string>
@@ -158,6 +159,7 @@ size_t ObservationReader::State::keepFilesOpen(size_t byteBudget)
 void ObservationReader::State::listPixels(const Band& band, Observations& block) const
 {
     block.lightCount = lightCount();
+    block.width = width;
     block.pixels.clear();
     block.pixels.reserve(pixelsIn(band.first, band.last));
     for (int y = band.first; y < band.last; ++y) {
@@ -283,6 +285,8 @@ Observations selectLights(const Observations& block, const std::vector<size_t>& 
 {
     Observations selected;
     selected.lightCount = lights.size();
+    selected.width = block.width;
+    selected.spacing = block.spacing;
     selected.pixels = block.pixels;
     selected.radiance.reserve(block.pixels.size() * lights.size());
     selected.saturated.reserve(block.pixels.size() * lights.size());
@@ -301,16 +305,44 @@ constexpr size_t kMostSampledPixels = 4000;
 
 } // namespace
 
-size_t sampleStep(size_t pixels)
+PixelSample samplePixels(const std::vector<uint32_t>& pixels, int width)
 {
-    return std::max<size_t>(1, (pixels + kMostSampledPixels - 1) / kMostSampledPixels);
+    PixelSample sample{1, pixels};
+    if (pixels.size() <= kMostSampledPixels || width <= 0) {
+        return sample;
+    }
+    sample.spacing = static_cast<int>(
+        std::ceil(std::sqrt(static_cast<double>(pixels.size()) / static_cast<double>(kMostSampledPixels))));
+    const int squares = (width + sample.spacing - 1) / sample.spacing;
+    std::map<int, std::pair<int, uint32_t>> nearest; // by square: distance to its middle, and the pixel
+    for (const uint32_t pixel : pixels) {
+        const int x = static_cast<int>(pixel) % width, y = static_cast<int>(pixel) / width,
+                  dx = 2 * (x % sample.spacing) + 1 - sample.spacing,
+                  dy = 2 * (y % sample.spacing) + 1 - sample.spacing;
+        const std::pair<int, uint32_t> candidate{dx * dx + dy * dy, pixel};
+        const auto [place, isNew] = nearest.insert({y / sample.spacing * squares + x / sample.spacing, candidate});
+        place->second = isNew ? candidate : std::min(place->second, candidate);
+    }
+    sample.pixels.clear();
+    for (const auto& [square, best] : nearest) {
+        sample.pixels.push_back(best.second);
+    }
+    std::sort(sample.pixels.begin(), sample.pixels.end());
+    return sample;
 }
 
-void addToSample(const Observations& block, size_t firstNumber, size_t step, Observations& sample)
+void addToSample(const Observations& block, const PixelSample& chosen, Observations& sample)
 {
     const size_t n = block.lightCount;
     sample.lightCount = n;
-    for (size_t p = (step - firstNumber % step) % step; p < block.pixels.size(); p += step) {
+    sample.width = block.width;
+    sample.spacing = chosen.spacing;
+    auto next = chosen.pixels.begin();
+    for (size_t p = 0; p < block.pixels.size(); ++p) {
+        next = std::lower_bound(next, chosen.pixels.end(), block.pixels[p]);
+        if (next == chosen.pixels.end() || *next != block.pixels[p]) {
+            continue;
+        }
         sample.pixels.push_back(block.pixels[p]);
         const auto saturated = block.saturatedOf(p);
         sample.saturated.insert(sample.saturated.end(), saturated.begin(), saturated.end());
@@ -322,7 +354,7 @@ void addToSample(const Observations& block, size_t firstNumber, size_t step, Obs
 Observations evenSample(const Observations& whole)
 {
     Observations sample;
-    addToSample(whole, 0, sampleStep(whole.pixels.size()), sample);
+    addToSample(whole, samplePixels(whole.pixels, whole.width), sample);
     return sample;
 }
 

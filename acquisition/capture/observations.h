@@ -15,6 +15,8 @@ namespace nacre {
 // subtracted, so that noise may leave values below 0); grey photographs have three equal channels.
 struct Observations {
     size_t lightCount = 0;
+    int width = 0;                   // of the picture; 0: not known
+    int spacing = 1;                 // each pixel stands for a square of so many
     std::vector<uint32_t> pixels;    // y * width + x, ascending
     std::vector<glm::vec3> radiance; // [pixel * lightCount + light]
     std::vector<uint8_t> saturated;  // same shape: 1 where a channel was clipped in every exposure
@@ -51,13 +53,18 @@ private:
     std::unique_ptr<State> state_;
 };
 
-// Every so many pixels are taken for a sample of a few thousand out of `pixels`.
-size_t sampleStep(size_t pixels);
+// A few thousand of the pixels (of a picture so wide, ascending): of each square of `spacing` the one nearest to its
+// middle. All of them where they are no more.
+struct PixelSample {
+    int spacing = 1;
+    std::vector<uint32_t> pixels; // ascending
+};
+PixelSample samplePixels(const std::vector<uint32_t>& pixels, int width);
 
-// Adds the block's pixels whose number, counted from that of its first, is a multiple of `step`.
-void addToSample(const Observations& block, size_t firstNumber, size_t step, Observations& sample);
+// Adds those of the block's pixels that are in the sample, and takes the block's shape over.
+void addToSample(const Observations& block, const PixelSample& chosen, Observations& sample);
 
-// A few thousand pixels spread evenly over what was seen; all of them where they are no more.
+// A few thousand pixels spread evenly over what was seen.
 Observations evenSample(const Observations& whole);
 
 } // namespace nacre

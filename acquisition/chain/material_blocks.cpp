@@ -20,6 +20,8 @@ BlockPart partOf(const Observations& block, const NormalBlock& normals, std::spa
     BlockPart part;
     part.places = places;
     part.seen.lightCount = block.lightCount;
+    part.seen.width = block.width;
+    part.seen.spacing = block.spacing;
     for (const size_t place : places) {
         part.seen.pixels.push_back(block.pixels[place]);
         append(part.seen.radiance, block.radiance, place, block.lightCount);

@@ -13,12 +13,17 @@ namespace {
 // A few thousand pixels spread evenly over the whole mask.
 Observations sampleOf(ObservationBlocks& blocks)
 {
-    const size_t step = sampleStep(blocks.capture().maskPixels);
+    const Capture& capture = blocks.capture();
+    std::vector<uint32_t> pixels;
+    for (size_t pixel = 0; pixel < capture.mask.size(); ++pixel) {
+        if (capture.mask[pixel]) {
+            pixels.push_back(static_cast<uint32_t>(pixel));
+        }
+    }
+    const PixelSample chosen = samplePixels(pixels, capture.width);
     Observations sample;
-    size_t seen = 0;
     while (const Observations* block = blocks.next()) {
-        addToSample(*block, seen, step, sample);
-        seen += block->pixels.size();
+        addToSample(*block, chosen, sample);
     }
     return sample;
 }
@@ -26,7 +31,7 @@ Observations sampleOf(ObservationBlocks& blocks)
 CaptureSample captureSampleOf(ObservationBlocks& blocks, const std::vector<Light>& lights)
 {
     const Capture& capture = blocks.capture();
-    CaptureSample sample{sampleOf(blocks), {}, capture.irradianceGiven || capture.diffuseSphere, lights, capture.width};
+    CaptureSample sample{sampleOf(blocks), {}, capture.irradianceGiven || capture.diffuseSphere, lights};
     for (const Photograph& photograph : capture.photographs) {
         sample.photographs.push_back(photograph.name);
     }
@@ -82,7 +87,7 @@ PreparedCapture prepareCapture(const Capture& capture, const AcquireOptions& opt
     prepared.reconciled = reconcilePhotographs(std::move(sample), options);
     keepReconciled(prepared);
     const CaptureSample& agreeing = prepared.reconciled.sample;
-    prepared.checked = checkCapture(agreeing.seen, agreeing.width, agreeing.lights, options.normals);
+    prepared.checked = checkCapture(agreeing.seen, agreeing.lights, options.normals);
     prepared.lambertianMisfit = lambertianMisfit(agreeing.seen, agreeing.lights);
     return prepared;
 }

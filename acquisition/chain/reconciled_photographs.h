@@ -13,7 +13,6 @@ struct CaptureSample {
     std::vector<std::string> photographs; // names, one per light
     bool irradiancesKnown = false;
     std::vector<Light> lights;
-    int width = 0; // of the grid that seen.pixels count in; 0 where it is not known
 };
 
 struct ReconciledPhotographs {

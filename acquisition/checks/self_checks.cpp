@@ -36,6 +36,8 @@ Observations thinned(const Observations& sample)
     const size_t n = sample.lightCount, step = sample.pixels.size() / kMostPixels + 1;
     Observations few;
     few.lightCount = n;
+    few.width = sample.width;
+    few.spacing = sample.spacing;
     for (size_t p = 0; p < sample.pixels.size(); p += step) {
         const auto radiance = sample.radianceOf(p);
         const auto saturated = sample.saturatedOf(p);
@@ -149,8 +151,7 @@ double unexplainedShare(const NormalBlock& block, const std::vector<Light>& ligh
 
 } // namespace
 
-CheckedSample checkCapture(const Observations& sample, int width, const std::vector<Light>& lights,
-                           const NormalOptions& options)
+CheckedSample checkCapture(const Observations& sample, const std::vector<Light>& lights, const NormalOptions& options)
 {
     CheckedSample checked;
     std::vector<Finding>& warnings = checked.findings;
@@ -165,7 +166,7 @@ CheckedSample checkCapture(const Observations& sample, int width, const std::vec
     checked.consensus = makeConsensusEstimator(lights, quick)(checked.intensities);
     checked.scatter = matteScatter(checked.intensities, checked.consensus, lights,
                                    matteObservations(checked.intensities, checked.consensus, lights));
-    if (const auto defect = findDefect(checked.seen, width, lights, quick, checked.scatter)) {
+    if (const auto defect = findDefect(checked.seen, lights, quick, checked.scatter)) {
         warnings.push_back(findingOf(*defect, checked.scatter));
     }
     const double misfit = lightMisfitDegrees(checked.intensities, checked.consensus, lights);

@@ -21,7 +21,7 @@ struct CheckedSample {
 
 // `width`: of the grid that the sample's pixels count in; 0 where it is not known. Each finding names what is
 // likely wrong with the photographs or lights, and what to do; docs/limitations.md lists them.
-CheckedSample checkCapture(const Observations& sample, int width, const std::vector<Light>& lights,
+CheckedSample checkCapture(const Observations& sample, const std::vector<Light>& lights,
                            const NormalOptions& options);
 
 // What is to be said of a method's normals, once it is known which method was taken.

@@ -36,13 +36,13 @@ Observations powerOf(const Observations& seen, double exponent)
 }
 
 // Places in widths of the object, from its middle: x right, y up.
-std::vector<glm::vec3> placesOf(const Observations& seen, int width)
+std::vector<glm::vec3> placesOf(const Observations& seen)
 {
     std::vector<glm::vec3> places;
     glm::vec3 least(1e9f), most(-1e9f);
     for (const uint32_t pixel : seen.pixels) {
-        places.emplace_back(static_cast<float>(pixel % static_cast<uint32_t>(width)),
-                            -static_cast<float>(pixel / static_cast<uint32_t>(width)), 0.0f);
+        places.emplace_back(static_cast<float>(pixel % static_cast<uint32_t>(seen.width)),
+                            -static_cast<float>(pixel / static_cast<uint32_t>(seen.width)), 0.0f);
         least = glm::min(least, places.back());
         most = glm::max(most, places.back());
     }
@@ -73,7 +73,7 @@ Intensities asIfDistant(const Intensities& intensities, const std::vector<glm::v
 
 } // namespace
 
-std::optional<CaptureDefect> findDefect(const Observations& seen, int width, const std::vector<Light>& lights,
+std::optional<CaptureDefect> findDefect(const Observations& seen, const std::vector<Light>& lights,
                                         const NormalOptions& options, double scatter)
 {
     if (scatter < kLeastScatter) {
@@ -94,10 +94,10 @@ std::optional<CaptureDefect> findDefect(const Observations& seen, int width, con
         consider(exponent > 1 ? CaptureDefect::Kind::encoded : CaptureDefect::Kind::decoded, exponent,
                  matteScatter(bent, consensus(bent), lights, matte) / exponent, kTellingCurve);
     }
-    if (width <= 0) {
+    if (seen.width <= 0) {
         return best;
     }
-    const std::vector<glm::vec3> places = placesOf(seen, width);
+    const std::vector<glm::vec3> places = placesOf(seen);
     for (const double distance : kWidths) {
         NormalBlock near = fit;
         Intensities distant;

@@ -17,7 +17,7 @@ struct CaptureDefect {
 // Tries transfer curves (powers of the photographs' values) and finite distances of the lights, on a few hundred pixels
 // of the object, and answers what explains best, if that is far better than taking the capture as it is. `width`: of
 // the grid that seen.pixels count in; 0 where it is not known. `scatter`: of the capture as it is.
-std::optional<CaptureDefect> findDefect(const Observations& seen, int width, const std::vector<Light>& lights,
+std::optional<CaptureDefect> findDefect(const Observations& seen, const std::vector<Light>& lights,
                                         const NormalOptions& options, double scatter);
 
 } // namespace nacre

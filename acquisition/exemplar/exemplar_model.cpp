@@ -1,16 +1,13 @@
 #include "acquisition/exemplar/exemplar_model.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
-#include <filesystem>
+#include <utility>
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
-#include <glm/trigonometric.hpp>
 
-#include "acquisition/normals/light_triples.h"
-#include "engine/brdf/brdf_models.h"
+#include "acquisition/exemplar/reflectance_fit.h"
 #include "engine/files/measures.h"
 #include "engine/files/parallel_for.h"
 
@@ -18,220 +15,309 @@ namespace nacre {
 
 namespace {
 
-// ABC lobes D = A / (1 + B (1 - cos thetaH))^C (Loew et al. 2012): B sets the width (1/sqrt(B) radians), C the tail.
-constexpr float kLobeWidths[] = {20, 150, 1000, 7000, 50000};
-constexpr float kLobeTails[] = {0.6f, 1.0f, 1.6f, 2.6f};
-// The lobe's peak over the diffuse part; 0: no diffuse part, as in metals.
-constexpr float kLobePeaks[] = {0.3f, 1.5f, 6, 25, 100, 0};
-constexpr float kLobeIor = 1.6f;
+constexpr int kBallSize = 64;       // texels across: 2.5 degrees; polishing does the rest
+constexpr int kSearchBallSize = 24; // 6.8 degrees
+constexpr size_t kMostInLattice = 4000;
+constexpr size_t kMostCoarsest = 700;
+constexpr size_t kPixelsToRank = 60;
+constexpr int kSweeps = 4;
+// Passes on a finer level go on while the cost falls by so much.
+constexpr int kMostPasses = 4;
+constexpr double kLeastGain = 0.005;
+constexpr int kOwnRounds = 3, kAdditiveRounds = 2;
+// Known reflectances are first tried around the consensus normal, 44 degrees at most.
+constexpr float kCosRankRadius = 0.72f;
+// Exponents of n.l that diffuse parts may have. Lambert's stays unless another costs so much less.
+constexpr float kDiffuseExponents[] = {0.7f, 0.8f, 0.9f, 1.1f, 1.2f, 1.3f, 1.45f};
+constexpr double kExponentGain = 0.05;
+constexpr double kRankWellExplained = 0.7;
+constexpr float kRankMargin = 1.5f;
 
-NamedBrdf builtInLobe(float width, float tail, float peak)
-{
-    const float f0 = (kLobeIor - 1) * (kLobeIor - 1) / ((kLobeIor + 1) * (kLobeIor + 1));
-    AbcModel model;
-    model.kD = glm::vec3(peak > 0 ? 1.0f : 0.0f);
-    model.A = glm::vec3((peak > 0 ? peak : 1.0f) / f0);
-    model.B = width;
-    model.C = tail;
-    model.ior = kLobeIor;
-    return {fmt::format("built-in lobe of B {:g}, C {:g}, {}", width, tail,
-                        peak > 0 ? fmt::format("{:g} x diffuse", peak) : "no diffuse part"),
-            model};
-}
+const std::vector<int> kWideSteps{16, 8, 4, 2};
+const std::vector<int> kNarrowSteps{4, 2, 1};
+const std::vector<int> kFineSteps{16, 8, 4, 2, 1};
 
-std::string withoutNumber(std::string name)
-{
-    while (!name.empty() && std::isdigit(static_cast<unsigned char>(name.back()))) {
-        name.pop_back();
-    }
-    return name;
-}
-
-void addFits(const std::string& family, const std::vector<NamedBrdf>& fits, const std::vector<std::string>& excluded,
-             std::vector<NamedBrdf>& dictionary)
-{
-    for (const NamedBrdf& fit : fits) {
-        const bool out = std::any_of(excluded.begin(), excluded.end(), [&](const std::string& name) {
-            return withoutNumber(name) == withoutNumber(fit.name);
-        });
-        if (!out) {
-            dictionary.push_back({family + ":" + fit.name, fit.model});
-        }
-    }
-}
-
-// Known reflectances to explain an object by. Built in: Lambert, and Lambert plus an ABC lobe over a grid of widths,
-// tails and strengths, from matt to metal. `fitsFolder` (empty: none) adds the published fits, named merl-abc:NAME and
-// merl-sgd:NAME. `excluded` leaves out published fits by NAME, in both families and with their numbered siblings
-// (gold-paint takes gold-paint2 along).
-std::vector<NamedBrdf> makeReflectanceDictionary(const std::filesystem::path& fitsFolder,
-                                                 const std::vector<std::string>& excluded)
-{
-    std::vector<NamedBrdf> dictionary;
-    dictionary.push_back({"Lambert", LambertGgx{glm::vec3(0.5f), glm::vec3(0), 0.5f}});
-    for (const float width : kLobeWidths) {
-        for (const float tail : kLobeTails) {
-            for (const float peak : kLobePeaks) {
-                dictionary.push_back(builtInLobe(width, tail, peak));
-            }
-        }
-    }
-    if (!fitsFolder.empty()) {
-        addFits("merl-abc", loadAbcFits(fitsFolder / "merl_abc_params.csv"), excluded, dictionary);
-        addFits("merl-sgd", loadSgdFits(fitsFolder / "merl_sgd_params.csv"), excluded, dictionary);
-    }
-    return dictionary;
-}
-
-constexpr int kCoarseSize = 32; // texels across: 3.6 degrees in the middle
-constexpr size_t kChosenExemplars = 6;
-constexpr size_t kPixelsToChoose = 300;
-// Consensus is off by less on diffuse materials; the radius doubles while matches crowd at its border.
-constexpr float kFirstRadius = 22;    // degrees
-constexpr float kLargestRadius = 88;  // degrees
-constexpr float kCrowdedShare = 0.8f; // of the radius
-// The object's scales: within so many robust standard deviations of log scale, at least kLeastLogSpread.
-constexpr float kScaleSigmas = 3;
-constexpr float kLeastLogSpread = 0.05f;
-
-struct Trial {
-    double cost = 0;   // mean over the few pixels
-    ScaleRange scales; // that the object has under this reflectance
-    float reach = 0;   // degrees: the 90th percentile of how far matches lie from their starts
+struct Hypothesis {
+    std::string name;
+    MatchModel model;
+    std::vector<BallMatch> matches;
+    double cost = 0;
 };
 
-// From the better half of the matches: one object has one material, up to its texture.
-ScaleRange scalesOf(std::vector<Match> matches)
-{
-    std::stable_sort(matches.begin(), matches.end(), [](const Match& a, const Match& b) { return a.cost < b.cost; });
-    std::vector<float> logs, deviations;
-    for (size_t i = 0; i < (matches.size() + 1) / 2; ++i) {
-        if (matches[i].scale > 0) {
-            logs.push_back(std::log(matches[i].scale));
-        }
-    }
-    if (logs.empty()) {
-        return {};
-    }
-    const float median = quantile(logs, 0.5);
-    for (const float value : logs) {
-        deviations.push_back(std::abs(value - median));
-    }
-    const float spread = kScaleSigmas * std::max(kLeastLogSpread, 1.4826f * quantile(deviations, 0.5));
-    return {std::exp(median - spread), std::exp(median + spread)};
-}
-
-// The pixels that choose: their observations, and the square roots of them.
-struct FewPixels {
-    Intensities intensities;
-    Intensities roots;
-    std::vector<glm::vec3> starts;
+// What the hypotheses of one object share.
+struct Bench {
+    const BallGrid& grid;
+    const BallGrid& searchGrid;
+    const PixelLattice& lattice; // the coarsest
+    std::vector<glm::vec3> consensus;
+    std::vector<glm::vec2> starts; // the consensus, on the ball
+    int threads;
 };
 
-std::vector<Match> matchAll(const PredictedBall& ball, const FewPixels& few, const std::vector<float>& weights,
-                            float cosRadius, const ScaleRange& scales)
+MatchModel modelOf(const BallGrid& grid, Reflectance reflectance, int threads)
 {
-    std::vector<Match> matches;
-    for (size_t p = 0; p < few.starts.size(); ++p) {
-        MatchTarget target = targetOf(few.intensities, p, weights);
-        target.roots = few.roots.padded(p);
-        matches.push_back(findBestMatch(ball, target, few.starts[p], cosRadius, scales));
+    MatchModel model{std::move(reflectance), {}, {}};
+    model.ball = makeReflectanceBall(grid, model.reflectance, threads);
+    return model;
+}
+
+void refit(const PixelLattice& lattice, bool additive, int threads, MatchModel& model, std::vector<BallMatch>& matches)
+{
+    const BallGrid& grid = *model.ball.grid;
+    fitReflectance(lattice, additive, model, matches);
+    model.ball = makeReflectanceBall(grid, model.reflectance, threads);
+    forgetCosts(matches);
+}
+
+void search(const Bench& bench, int sweeps, Hypothesis& hypothesis)
+{
+    for (int sweep = 0; sweep < sweeps; ++sweep) {
+        sweepMatches(hypothesis.model, bench.lattice, kWideSteps, bench.starts, bench.threads, hypothesis.matches);
+    }
+    polishMatches(hypothesis.model, bench.lattice, bench.threads, hypothesis.matches);
+    hypothesis.cost = meanCost(hypothesis.matches);
+}
+
+std::vector<BallMatch> matchesAt(const std::vector<glm::vec2>& texels)
+{
+    std::vector<BallMatch> matches;
+    for (const glm::vec2& texel : texels) {
+        matches.push_back({texel, 1, 2, -1});
     }
     return matches;
 }
 
-FewPixels choosePixels(const Intensities& sample, const std::vector<glm::vec3>& starts)
+// The object's own reflectance and its normals, in turn.
+Hypothesis withOwnReflectance(const Bench& bench, Hypothesis hypothesis, bool additive, int rounds,
+                              const std::string& name)
 {
-    const std::vector<size_t> pixels = spreadPixels(sample.pixelCount(), kPixelsToChoose);
-    FewPixels few{selectPixels(sample, pixels), {}, selectItems(starts, pixels)};
-    few.roots = few.intensities;
-    for (float& value : few.roots.values) {
-        value = std::sqrt(std::max(value, 0.0f));
+    hypothesis.name = name;
+    for (int round = 0; round < rounds; ++round) {
+        refit(bench.lattice, additive, bench.threads, hypothesis.model, hypothesis.matches);
+        search(bench, kSweeps, hypothesis);
     }
-    return few;
+    return hypothesis;
 }
 
-// Free scales first; then again with the scales that the object showed.
-Trial tryReflectance(const PredictedBall& ball, const FewPixels& few, const std::vector<float>& weights,
-                     float radiusDegrees)
+// Lambert's law, or n.l to the power that costs clearly less. A reflectance of one free number tells slants from
+// shading better than one that is free altogether.
+Hypothesis diffuseStart(const Bench& bench, std::array<float, kShadeKnots>& shade)
 {
-    const float cosRadius = std::cos(glm::radians(radiusDegrees));
-    Trial trial;
-    trial.scales = scalesOf(matchAll(ball, few, weights, cosRadius, {}));
-    std::vector<float> reaches;
-    const std::vector<Match> matches = matchAll(ball, few, weights, cosRadius, trial.scales);
-    for (size_t p = 0; p < matches.size(); ++p) {
-        trial.cost += std::min(1.0f, matches[p].cost) / static_cast<double>(matches.size());
-        reaches.push_back(matches[p].row < 0
-                              ? 0.0f
-                              : static_cast<float>(degreesBetween(ball.normals[matches[p].row], few.starts[p])));
-    }
-    trial.reach = quantile(reaches, 0.9);
-    return trial;
-}
-
-struct Ranking {
-    std::vector<Trial> trials;
-    std::vector<size_t> order; // indices of the dictionary, best first
-    float radiusDegrees = 0;
-};
-
-Ranking rankReflectances(const std::vector<PredictedBall>& balls, const FewPixels& few,
-                         const std::vector<float>& weights, int threads)
-{
-    Ranking ranking;
-    for (float radius = kFirstRadius;; radius *= 2) {
-        ranking = {std::vector<Trial>(balls.size()), std::vector<size_t>(balls.size()), radius};
-        parallelFor(balls.size(), 1, threads, [&](size_t r, size_t) {
-            ranking.trials[r] = tryReflectance(balls[r], few, weights, radius);
-            ranking.order[r] = r;
-        });
-        std::stable_sort(ranking.order.begin(), ranking.order.end(),
-                         [&](size_t a, size_t b) { return ranking.trials[a].cost < ranking.trials[b].cost; });
-        if (ranking.trials[ranking.order.front()].reach < kCrowdedShare * radius || 2 * radius > kLargestRadius) {
-            return ranking;
+    const auto tryShade = [&](const std::array<float, kShadeKnots>& tried) {
+        Reflectance reflectance;
+        reflectance.shade = tried;
+        Hypothesis hypothesis{"", modelOf(bench.grid, reflectance, bench.threads), matchesAt(bench.starts), 0};
+        search(bench, kSweeps / 2, hypothesis);
+        return hypothesis;
+    };
+    Hypothesis best = tryShade({});
+    double least = (1 - kExponentGain) * best.cost;
+    for (const float exponent : kDiffuseExponents) {
+        Hypothesis hypothesis = tryShade(shadeOfPower(exponent));
+        if (hypothesis.cost < least) {
+            least = hypothesis.cost;
+            best = std::move(hypothesis);
         }
     }
+    shade = best.model.reflectance.shade;
+    search(bench, kSweeps / 2, best);
+    return best;
+}
+
+// The best row of a whole ball, or of what lies around a normal.
+BallMatch bestOfBall(const MatchModel& model, const PixelLattice& lattice, size_t pixel, const glm::vec3& around,
+                     float cosRadius)
+{
+    const BallGrid& grid = *model.ball.grid;
+    BallMatch best;
+    for (size_t row = 0; row < grid.normals.size(); ++row) {
+        if (glm::dot(grid.normals[row], around) > cosRadius) {
+            const BallMatch match = matchAtRow(model, lattice, pixel, static_cast<int>(row), 1);
+            best = match.cost < best.cost ? match : best;
+        }
+    }
+    return best;
+}
+
+// The mean cost of a few pixels; the albedos of those that are well explained.
+double rankCost(const Bench& bench, const MatchModel& model, AlbedoRange& albedos)
+{
+    std::vector<std::pair<float, float>> found;
+    double sum = 0;
+    const std::vector<size_t> pixels = spreadPixels(bench.lattice.pixelCount(), kPixelsToRank);
+    for (const size_t p : pixels) {
+        const BallMatch match = bestOfBall(model, bench.lattice, p, bench.consensus[p], kCosRankRadius);
+        sum += std::min(1.0f, match.cost);
+        found.push_back({match.cost, match.scale * bench.lattice.bright[p]});
+    }
+    std::sort(found.begin(), found.end());
+    std::vector<float> values;
+    for (size_t j = 0;
+         j < std::max<size_t>(1, static_cast<size_t>(kRankWellExplained * static_cast<double>(found.size()))); ++j) {
+        values.push_back(found[j].second);
+    }
+    albedos = {quantile(values, 0.02) / kRankMargin, quantile(values, 0.98) * kRankMargin};
+    return sum / static_cast<double>(pixels.size());
+}
+
+// The known reflectance that explains a few pixels best: free albedos first, then again with those that they showed.
+Hypothesis dictionaryStart(const Bench& bench, const std::array<float, kShadeKnots>& shade,
+                           const NormalOptions& options, double& rankedCost, size_t& dictionarySize)
+{
+    std::vector<NamedReflectance> dictionary =
+        reflectanceDictionary(options.fitsFolder, options.excludedReflectances, bench.grid.largestThetaD);
+    std::vector<double> costs(dictionary.size());
+    std::vector<AlbedoRange> albedos(dictionary.size());
+    parallelFor(dictionary.size(), 1, bench.threads, [&](size_t r, size_t) {
+        dictionary[r].reflectance.shade = shade;
+        MatchModel model = modelOf(bench.searchGrid, dictionary[r].reflectance, 1);
+        rankCost(bench, model, model.albedos);
+        albedos[r] = model.albedos;
+        AlbedoRange again;
+        costs[r] = rankCost(bench, model, again);
+    });
+    const size_t best = static_cast<size_t>(std::min_element(costs.begin(), costs.end()) - costs.begin());
+    rankedCost = costs[best];
+    dictionarySize = dictionary.size();
+    MatchModel wide = modelOf(bench.searchGrid, dictionary[best].reflectance, bench.threads);
+    wide.albedos = albedos[best];
+    std::vector<glm::vec2> texels(bench.lattice.pixelCount());
+    parallelFor(texels.size(), 16, bench.threads, [&](size_t first, size_t last) {
+        for (size_t p = first; p < last; ++p) {
+            const BallMatch match = bestOfBall(wide, bench.lattice, p, {0, 0, 1}, -1);
+            texels[p] =
+                ballTexelOf(match.row < 0 ? glm::vec3(0, 0, 1) : bench.searchGrid.normals[match.row], bench.grid.size);
+        }
+    });
+    Hypothesis hypothesis{dictionary[best].name, modelOf(bench.grid, dictionary[best].reflectance, bench.threads),
+                          matchesAt(texels), 0};
+    hypothesis.model.albedos = wide.albedos;
+    search(bench, kSweeps, hypothesis);
+    return hypothesis;
+}
+
+Hypothesis bestHypothesis(const Bench& bench, const NormalOptions& options, std::vector<Finding>& findings)
+{
+    std::array<float, kShadeKnots> shade{};
+    const Hypothesis diffuse = diffuseStart(bench, shade);
+    double rankedCost = 0;
+    size_t dictionarySize = 0;
+    const Hypothesis known = dictionaryStart(bench, shade, options, rankedCost, dictionarySize);
+    std::vector<Hypothesis> all;
+    all.push_back(withOwnReflectance(bench, diffuse, false, kOwnRounds, "a diffuse start, gloss scaled by the albedo"));
+    all.push_back(withOwnReflectance(bench, diffuse, true, kOwnRounds, "a diffuse start, gloss whatever the albedo"));
+    all.push_back(withOwnReflectance(bench, known, false, kOwnRounds, known.name + ", gloss scaled by the albedo"));
+    all.push_back(
+        withOwnReflectance(bench, all.back(), true, kAdditiveRounds, known.name + ", gloss whatever the albedo"));
+    const auto best = std::min_element(all.begin(), all.end(),
+                                       [](const Hypothesis& a, const Hypothesis& b) { return a.cost < b.cost; });
+    findings.push_back(
+        {FindingCode::reflectanceChosen,
+         fmt::format("exemplar: the object's own reflectance from {} (cost {:.3f}); of {} known ones {} explains it "
+                     "best (cost {:.3f})",
+                     best->name, best->cost, dictionarySize, known.name, rankedCost)});
+    return std::move(*best);
+}
+
+std::vector<BallMatch> inherited(const PixelLattice& fine, const PixelLattice& coarse,
+                                 const std::vector<BallMatch>& matches, const std::vector<int>& parents)
+{
+    std::vector<BallMatch> result;
+    for (size_t p = 0; p < parents.size(); ++p) {
+        const BallMatch& parent = matches[parents[p]];
+        result.push_back({parent.texel, parent.scale * coarse.bright[parents[p]] / fine.bright[p], 2, parent.row});
+    }
+    return result;
+}
+
+std::vector<glm::vec3> consensusNormals(const PixelLattice& lattice, const std::vector<Light>& lights,
+                                        const NormalOptions& options)
+{
+    std::vector<glm::vec3> normals;
+    for (const PixelNormal& pixel : makeConsensusEstimator(lights, options)(lattice.intensities).pixels) {
+        normals.push_back(pixel.albedo > 0 ? pixel.normal : glm::vec3(0, 0, 1));
+    }
+    return normals;
+}
+
+struct Level {
+    PixelLattice lattice;
+    std::vector<int> parents; // its pixels' places in the next coarser level
+};
+
+// From the thin lattice to the coarsest.
+std::vector<Level> makeLevels(const Intensities& sample, int& spacing, int threads)
+{
+    std::vector<Level> levels{{makePixelLattice(sample, threads), {}}};
+    const double crowd = static_cast<double>(sample.pixelCount()) / static_cast<double>(kMostInLattice);
+    spacing = static_cast<int>(std::ceil(sample.spacing * std::sqrt(std::max(1.0, crowd))));
+    if (spacing > 1) {
+        std::vector<int> parents;
+        levels.front().lattice = thinnedLattice(levels.front().lattice, spacing, threads, parents);
+    }
+    while (levels.back().lattice.pixelCount() > kMostCoarsest) {
+        PixelLattice coarse = halvedLattice(levels.back().lattice, threads, levels.back().parents);
+        levels.push_back({std::move(coarse), {}});
+    }
+    return levels;
 }
 
 } // namespace
 
-ExemplarModel makeExemplarModel(const Intensities& sample, const std::vector<glm::vec3>& starts,
-                                const std::vector<Light>& lights, const NormalOptions& options,
-                                std::vector<Finding>& findings)
+ExemplarModel makeExemplarModel(const Intensities& sample, const std::vector<Light>& lights,
+                                const NormalOptions& options, std::vector<Finding>& findings)
 {
-    const std::vector<NamedBrdf> dictionary =
-        makeReflectanceDictionary(options.fitsFolder, options.excludedReflectances);
-    const std::vector<glm::vec3> directions = directionsOf(lights);
-    const auto reflectanceOf = [&](size_t r) -> GreyReflectance {
-        return [&, r](const glm::vec3& n, const glm::vec3& l) {
-            return greyOf(evaluate(dictionary[r].model, n, l, {0, 0, 1}));
-        };
-    };
-    std::vector<PredictedBall> coarse;
-    for (size_t r = 0; r < dictionary.size(); ++r) {
-        coarse.push_back(makePredictedBall(kCoarseSize, directions, reflectanceOf(r), options.threads));
-    }
-    const FewPixels few = choosePixels(sample, starts);
-    const std::vector<float> everyLight = allLights(lights.size());
-    const Ranking ranking = rankReflectances(coarse, few, everyLight, options.threads);
-
     ExemplarModel model;
-    model.cosRadius = std::cos(glm::radians(ranking.radiusDegrees));
-    for (size_t j = 0; j < std::min(kChosenExemplars, dictionary.size()); ++j) {
-        const size_t r = ranking.order[j];
-        model.exemplars.push_back({dictionary[r].name, std::move(coarse[r]),
-                                   makePredictedBall(kFineBallSize, directions, reflectanceOf(r), options.threads),
-                                   ranking.trials[r].scales});
+    std::vector<Level> levels = makeLevels(sample, model.spacing, options.threads);
+    model.grid = std::make_unique<const BallGrid>(makeBallGrid(kBallSize, lights, options.threads));
+    const BallGrid searchGrid = makeBallGrid(kSearchBallSize, lights, options.threads);
+    const PixelLattice& coarsest = levels.back().lattice;
+    Bench bench{*model.grid, searchGrid, coarsest, consensusNormals(coarsest, lights, options), {}, options.threads};
+    for (const glm::vec3& normal : bench.consensus) {
+        bench.starts.push_back(ballTexelOf(normal, kBallSize));
     }
-    findings.push_back(
-        {FindingCode::reflectanceChosen,
-         fmt::format(
-             "exemplars: {} reflectances; {} explains the object best (cost {:.3f}), searched {:.0f} degrees around",
-             dictionary.size(), model.exemplars.front().name, ranking.trials[ranking.order.front()].cost,
-             ranking.radiusDegrees)});
-    reestimate(model, sample, starts, lights, options.threads, findings);
+    Hypothesis best = bestHypothesis(bench, options, findings);
+    const bool additive = best.model.reflectance.additive;
+    for (size_t level = levels.size() - 1; level-- > 0;) {
+        const Level& fine = levels[level];
+        best.matches = inherited(fine.lattice, levels[level + 1].lattice, best.matches, fine.parents);
+        double cost = 1;
+        for (int pass = 0; pass < kMostPasses; ++pass) {
+            sweepMatches(best.model, fine.lattice, kNarrowSteps, {}, options.threads, best.matches);
+            polishMatches(best.model, fine.lattice, options.threads, best.matches);
+            const double next = meanCost(best.matches);
+            refit(fine.lattice, additive, options.threads, best.model, best.matches);
+            if (next > (1 - kLeastGain) * cost) {
+                break;
+            }
+            cost = next;
+        }
+    }
+    model.match = std::move(best.model);
+    model.matches = std::move(best.matches);
+    model.lattice = std::move(levels.front().lattice);
     return model;
+}
+
+std::vector<BallMatch> matchPixels(const ExemplarModel& model, const PixelLattice& pixels, int threads)
+{
+    const PixelLattice& lattice = model.lattice;
+    std::vector<BallMatch> matches;
+    for (size_t p = 0; p < pixels.pixelCount(); ++p) {
+        const int x = static_cast<int>(pixels.places[p]) % pixels.width / model.spacing,
+                  y = static_cast<int>(pixels.places[p]) / pixels.width / model.spacing;
+        const bool isInside = x < lattice.width && y < lattice.height;
+        const int near = isInside ? lattice.index[static_cast<size_t>(y) * lattice.width + x] : -1;
+        if (near < 0) {
+            matches.push_back({ballTexelOf({0, 0, 1}, model.grid->size), 1, 2, -1});
+        } else {
+            matches.push_back({model.matches[near].texel,
+                               model.matches[near].scale * lattice.bright[near] / pixels.bright[p], 2, -1});
+        }
+    }
+    sweepMatches(model.match, pixels, kFineSteps, {}, threads, matches);
+    polishMatches(model.match, pixels, threads, matches);
+    return matches;
 }
 
 } // namespace nacre

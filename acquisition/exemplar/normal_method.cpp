@@ -1,28 +1,37 @@
 #include "acquisition/exemplar/normal_method.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 
+#include "acquisition/exemplar/exemplar_estimator.h"
 #include "acquisition/exemplar/exemplar_model.h"
+#include "acquisition/exemplar/reflectance_fit.h"
 #include "acquisition/lights/lights.h"
+#include "engine/files/parallel_for.h"
 
 namespace nacre {
 
 namespace {
 
-constexpr size_t kMostSelectionPixels = 1500;
 constexpr size_t kFewestToHoldOut = 9;
+constexpr size_t kHeldOutEvery = 6, kFirstHeldOut = 3;
 // Errors this close are a tie: 2 %, and what the table's own grain makes, in units of the truncation limit.
 constexpr double kTieShare = 0.02;
 constexpr double kTieDifference = 0.002;
 // Beyond it more than half of what is predicted is as wrong as counts: the errors no longer tell methods apart.
 constexpr double kUnexplained = 0.5;
-// A cast shadow or a highlight costs no more than this share of the pixel's bright level.
-constexpr float kSelectionLimitShare = 0.5f;
+// A cast shadow or a highlight costs no more than this, in roots over that of the pixel's bright level.
+constexpr float kJuryTruncation = 0.16f;
 // What is left after holding out has to span space well.
 constexpr double kWorstSplitCondition = 30;
+constexpr int kJuryBallSize = 64;
+constexpr int kJuryRounds = 2;
+constexpr size_t kJudgedPerTask = 256;
 
 // Of the Lambertian methods the simplest wins a tie; the exemplars win one against them, since they know what Lambert
 // knows and highlights, too.
@@ -37,97 +46,128 @@ bool isBetter(NormalMethod method, double error, double bestError)
 
 struct LightSplit {
     std::vector<size_t> kept, heldOut; // indices of lights
-    std::vector<Light> keptLights;
+    std::vector<Light> keptLights, heldOutLights;
 };
 
 LightSplit splitLights(const std::vector<Light>& lights)
 {
     LightSplit split;
     for (size_t i = 0; i < lights.size(); ++i) {
-        (isHeldOut(i) ? split.heldOut : split.kept).push_back(i);
-    }
-    for (const size_t i : split.kept) {
-        split.keptLights.push_back(lights[i]);
+        const bool isHeldOut = i % kHeldOutEvery == kFirstHeldOut;
+        (isHeldOut ? split.heldOut : split.kept).push_back(i);
+        (isHeldOut ? split.heldOutLights : split.keptLights).push_back(lights[i]);
     }
     return split;
 }
 
-std::vector<float> weightsOf(const std::vector<size_t>& chosen, size_t lights)
+// What the jury sees: the sample under the lights that are kept, and under those that are not.
+struct Jury {
+    LightSplit split;
+    PixelLattice kept;
+    Intensities heldOut;
+    BallGrid keptGrid, heldOutGrid;
+};
+
+Jury makeJury(const Intensities& sample, const LightSplit& split, int threads)
 {
-    std::vector<float> weights((lights + 7) / 8 * 8, 0.0f);
-    for (const size_t i : chosen) {
-        weights[i] = 1;
-    }
-    return weights;
+    Jury jury{split, makePixelLattice(selectLights(sample, split.kept), threads), selectLights(sample, split.heldOut),
+              makeBallGrid(kJuryBallSize, split.keptLights, threads),
+              makeBallGrid(kJuryBallSize, split.heldOutLights, threads)};
+    // The lobes' bins of both are the same, since the lights that are kept say what was measured.
+    jury.heldOutGrid.largestThetaD = jury.keptGrid.largestThetaD;
+    return jury;
 }
 
-// The mean square of what the predictions miss, each truncated at kSelectionLimitShare of the pixel's bright level and
-// in units of it: [0,1].
-double squaredCost(const std::vector<float>& column, std::span<const float> observed, const std::vector<float>& judged,
-                   float scale)
+// The object's own reflectance, of the form asked for, as it follows from normals under the lights that are kept.
+void measureReflectance(const Jury& jury, bool additive, int threads, MatchModel& model,
+                        std::vector<BallMatch>& matches)
 {
-    const float limit = std::max(kSelectionLimitShare * brightLevel(observed), std::numeric_limits<float>::min());
-    double sum = 0, count = 0;
-    for (size_t i = 0; i < observed.size(); ++i) {
-        const float residual = std::min(std::abs(observed[i] - scale * column[i]) / limit, 1.0f);
-        sum += judged[i] * residual * residual;
-        count += judged[i];
+    model.ball = makeReflectanceBall(jury.keptGrid, model.reflectance, threads);
+    for (int round = 0; round <= kJuryRounds; ++round) {
+        parallelFor(matches.size(), kJudgedPerTask, threads, [&](size_t first, size_t last) {
+            for (size_t p = first; p < last; ++p) {
+                matches[p] = matchAtTexel(model, jury.kept, p, matches[p].texel, matches[p].scale);
+            }
+        });
+        if (round < kJuryRounds) {
+            fitReflectance(jury.kept, additive, model, matches);
+            model.ball = makeReflectanceBall(jury.keptGrid, model.reflectance, threads);
+        }
     }
-    return sum / count;
 }
 
-// The truncated error (root mean square) of the table's predictions under the held-out lights; each pixel's albedo is
-// that of the lights that were kept.
-double predictionError(const BrdfTable& table, const Intensities& sample, const std::vector<Light>& lights,
-                       const std::vector<glm::vec3>& normals, const std::vector<float>& kept,
-                       const std::vector<float>& heldOut)
+// The mean error of what a model predicts of the lights that were held out: |sqrt(observed) - sqrt(predicted)| over the
+// root of the pixel's bright level, truncated at kJuryTruncation and in units of it.
+double predictionError(const Jury& jury, MatchModel model, const std::vector<BallMatch>& matches, int threads)
 {
+    model.ball = makeReflectanceBall(jury.heldOutGrid, model.reflectance, threads);
     double sum = 0;
-    std::vector<float> column(sample.stride, 0.0f);
-    for (size_t p = 0; p < sample.pixelCount(); ++p) {
-        for (size_t i = 0; i < lights.size(); ++i) {
-            const float nDotL = glm::dot(normals[p], lights[i].direction);
-            column[i] =
-                nDotL > 0 ? evaluateTable(table, normals[p], lights[i].direction, {0, 0, 1}).value.x * nDotL : 0.0f;
+    std::vector<float> predicted(jury.heldOut.lightCount);
+    for (size_t p = 0; p < matches.size(); ++p) {
+        const float bright = jury.kept.bright[p];
+        predictMatch(model, matches[p], bright, predicted.data());
+        for (size_t i = 0; i < predicted.size(); ++i) {
+            const float observed = std::sqrt(std::max(jury.heldOut.ofPixel(p)[i] / bright, 0.0f));
+            sum += std::min(std::abs(observed - std::sqrt(predicted[i] / bright)) / kJuryTruncation, 1.0f);
         }
-        const float scale = fittedScale(column.data(), sample.stride, targetOf(sample, p, kept), kOwnScales);
-        sum += squaredCost(column, sample.ofPixel(p), heldOut, scale);
     }
-    return std::sqrt(sum / static_cast<double>(sample.pixelCount()));
+    return sum / static_cast<double>(matches.size() * predicted.size());
 }
 
-// The held-out error of the BRDF that a method's normals give; 1 where they give none.
-double heldOutError(NormalMethod method, const Intensities& sample, const std::vector<Light>& lights,
-                    const LightSplit& split, const NormalOptions& options)
+// Of normals alone: the reflectance that follows from them, of both forms that it may have the better one.
+double predictionError(const Jury& jury, const std::vector<PixelNormal>& normals, int threads)
 {
-    NormalOptions chosen = options;
-    chosen.method = method;
-    NormalReport unused;
-    const Intensities kept = selectLights(sample, split.kept);
-    const NormalBlock block = makeNormalEstimator(kept, split.keptLights, chosen, unused)(kept);
-    ExemplarResult result;
-    for (const PixelNormal& pixel : block.pixels) {
-        const bool found = pixel.albedo > 0;
-        result.normals.push_back(found ? pixel.normal : glm::vec3(0, 0, 1));
-        result.scales.push_back(found ? pixel.albedo : 0.0f);
-    }
-    std::vector<Verdict> verdicts(sample.pixelCount() * lights.size(), Verdict::shadow);
-    for (size_t p = 0; p < sample.pixelCount(); ++p) {
-        for (size_t i = 0; i < split.kept.size(); ++i) {
-            verdicts[p * lights.size() + split.kept[i]] = block.verdicts[p * split.kept.size() + i];
+    double least = std::numeric_limits<double>::max();
+    for (const bool additive : {false, true}) {
+        std::vector<BallMatch> matches;
+        for (const PixelNormal& pixel : normals) {
+            matches.push_back(
+                {ballTexelOf(pixel.albedo > 0 ? pixel.normal : glm::vec3(0, 0, 1), kJuryBallSize), 1, 2, -1});
         }
+        MatchModel model;
+        measureReflectance(jury, additive, threads, model, matches);
+        least = std::min(least, predictionError(jury, std::move(model), matches, threads));
     }
-    const std::vector<float> keptWeights = weightsOf(split.kept, lights.size()),
-                             heldOutWeights = weightsOf(split.heldOut, lights.size());
-    const std::optional<BrdfTable> own =
-        makeObjectTable(sample, result, verdicts, lights, keptWeights, options.threads);
-    return own ? predictionError(*own, sample, lights, result.normals, keptWeights, heldOutWeights) : 1.0;
+    return least;
 }
 
-// The method whose normals let the object's own BRDF predict held-out lights best: every sixth light is left out, each
-// candidate estimates the sample's normals from the others, the BRDF is baked from its lit observations, and the
-// truncated error of its predictions counts. A tie goes to the simplest Lambertian method, and to the exemplars before
-// any of those.
+NormalEstimator makeEstimator(NormalMethod method, const Intensities& sample, const std::vector<Light>& lights,
+                              const NormalOptions& options, std::vector<Finding>& findings)
+{
+    switch (method) {
+    case NormalMethod::leastSquares:
+        return makeLeastSquaresEstimator(lights, options);
+    case NormalMethod::threshold:
+        return makeThresholdEstimator(lights, options);
+    case NormalMethod::twoStep:
+        return makeTwoStepEstimator(lights, options);
+    case NormalMethod::ransac:
+        return makeRansacEstimator(lights, options);
+    case NormalMethod::exemplar:
+        return makeExemplarEstimator(sample, lights, options, findings);
+    case NormalMethod::automatic:
+    case NormalMethod::consensus:
+        break;
+    }
+    return makeConsensusEstimator(lights, options);
+}
+
+double heldOutError(NormalMethod method, const Jury& jury, const NormalOptions& options)
+{
+    std::vector<Finding> unused;
+    const Intensities& kept = jury.kept.intensities;
+    if (method == NormalMethod::exemplar) {
+        ExemplarModel model = makeExemplarModel(kept, jury.split.keptLights, options, unused);
+        const std::vector<BallMatch> matches = matchPixels(model, jury.kept, options.threads);
+        return predictionError(jury, std::move(model.match), matches, options.threads);
+    }
+    const NormalEstimator estimator = makeEstimator(method, kept, jury.split.keptLights, options, unused);
+    return predictionError(jury, estimator(kept).pixels, options.threads);
+}
+
+// The method whose normals let the object's own reflectance predict held-out lights best: every sixth light is left
+// out, and each candidate estimates the sample's normals from the others. A tie goes to the simplest Lambertian method,
+// and to the exemplars before any of those.
 NormalMethod selectNormalMethod(const Intensities& sample, const std::vector<Light>& lights,
                                 const NormalOptions& options, std::vector<Finding>& findings)
 {
@@ -140,12 +180,12 @@ NormalMethod selectNormalMethod(const Intensities& sample, const std::vector<Lig
                  : "auto: consensus, since the lights lie too nearly in one plane to hold any out"});
         return NormalMethod::consensus;
     }
-    const Intensities thinned = selectPixels(sample, spreadPixels(sample.pixelCount(), kMostSelectionPixels));
+    const Jury jury = makeJury(sample, split, options.threads);
     NormalMethod best = kCandidates[0];
     double bestError = 0;
     std::string errors;
     for (const NormalMethod method : kCandidates) {
-        const double error = heldOutError(method, thinned, lights, split, options);
+        const double error = heldOutError(method, jury, options);
         errors += fmt::format("{}{} {:.4f}", errors.empty() ? "" : ", ", nameOf(method), error);
         if (method == kCandidates[0] || isBetter(method, error, bestError)) {
             best = method;
@@ -171,22 +211,7 @@ NormalEstimator makeNormalEstimator(const Intensities& sample, const std::vector
     report.method = options.method == NormalMethod::automatic
                         ? selectNormalMethod(sample, lights, options, report.findings)
                         : options.method;
-    switch (report.method) {
-    case NormalMethod::leastSquares:
-        return makeLeastSquaresEstimator(lights, options);
-    case NormalMethod::threshold:
-        return makeThresholdEstimator(lights, options);
-    case NormalMethod::twoStep:
-        return makeTwoStepEstimator(lights, options);
-    case NormalMethod::ransac:
-        return makeRansacEstimator(lights, options);
-    case NormalMethod::exemplar:
-        return makeExemplarEstimator(sample, lights, options, report.findings);
-    case NormalMethod::automatic:
-    case NormalMethod::consensus:
-        break;
-    }
-    return makeConsensusEstimator(lights, options);
+    return makeEstimator(report.method, sample, lights, options, report.findings);
 }
 
 } // namespace nacre

@@ -18,6 +18,9 @@ Intensities makeIntensities(size_t pixels, size_t lightCount)
 Intensities intensitiesOf(const Observations& block, const std::vector<Light>& lights)
 {
     Intensities result = makeIntensities(block.pixels.size(), lights.size());
+    result.places = block.pixels;
+    result.width = block.width;
+    result.spacing = block.spacing;
     for (size_t p = 0; p < block.pixels.size(); ++p) {
         const auto radiance = block.radianceOf(p);
         for (size_t i = 0; i < lights.size(); ++i) {
@@ -37,6 +40,9 @@ float brightLevel(std::span<const float> observed)
 Intensities selectLights(const Intensities& intensities, const std::vector<size_t>& lights)
 {
     Intensities result = makeIntensities(intensities.pixelCount(), lights.size());
+    result.places = intensities.places;
+    result.width = intensities.width;
+    result.spacing = intensities.spacing;
     for (size_t p = 0; p < intensities.pixelCount(); ++p) {
         for (size_t i = 0; i < lights.size(); ++i) {
             result.values[p * result.stride + i] = intensities.ofPixel(p)[lights[i]];
@@ -57,7 +63,12 @@ std::vector<size_t> spreadPixels(size_t pixels, size_t most)
 Intensities selectPixels(const Intensities& intensities, const std::vector<size_t>& pixels)
 {
     Intensities result = makeIntensities(pixels.size(), intensities.lightCount);
+    result.width = intensities.width;
+    result.spacing = intensities.spacing;
     for (size_t j = 0; j < pixels.size(); ++j) {
+        if (result.width > 0) {
+            result.places.push_back(intensities.places[pixels[j]]);
+        }
         std::copy_n(intensities.padded(pixels[j]), intensities.stride, &result.values[j * result.stride]);
     }
     return result;

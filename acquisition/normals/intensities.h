@@ -17,6 +17,10 @@ struct Intensities {
     size_t lightCount = 0;
     size_t stride = 0;
     std::vector<float> values;
+    // Where the pixels are, y * width + x, ascending; width 0: not known.
+    std::vector<uint32_t> places;
+    int width = 0;
+    int spacing = 1; // each pixel stands for a square of so many
 
     size_t pixelCount() const { return stride ? values.size() / stride : 0; }
     std::span<const float> ofPixel(size_t p) const { return {&values[p * stride], lightCount}; }

@@ -1,4 +1,12 @@
 #pragma once
+#ifdef __SSE__
+#include <xmmintrin.h>
+#else
+#include <cmath>
+#endif
+
+// Functions on lanes are inlined where they are called, so that no caller passes them in registers of another width.
+#pragma GCC diagnostic ignored "-Wpsabi"
 
 namespace nacre {
 
@@ -10,6 +18,32 @@ typedef float Lanes __attribute__((vector_size(32), aligned(4), may_alias));
 inline const Lanes& lanesAt(const float* first)
 {
     return *reinterpret_cast<const Lanes*>(first);
+}
+
+inline Lanes allLanes(float value)
+{
+    return Lanes{value, value, value, value, value, value, value, value};
+}
+
+inline Lanes absolute(const Lanes& lanes)
+{
+    return lanes < 0 ? -lanes : lanes;
+}
+
+inline Lanes rootOf(const Lanes& lanes)
+{
+    Lanes result;
+    const auto* from = reinterpret_cast<const float*>(&lanes);
+    auto* to = reinterpret_cast<float*>(&result);
+#ifdef __SSE__
+    _mm_storeu_ps(to, _mm_sqrt_ps(_mm_loadu_ps(from)));
+    _mm_storeu_ps(to + 4, _mm_sqrt_ps(_mm_loadu_ps(from + 4)));
+#else
+    for (int k = 0; k < kLanes; ++k) {
+        to[k] = std::sqrt(from[k]);
+    }
+#endif
+    return result;
 }
 
 // Pairwise, so that the result does not depend on how it is compiled.

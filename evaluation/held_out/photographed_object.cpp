@@ -45,6 +45,7 @@ void thinOut(PhotographedObject& object, NormalMap& truth)
     Observations thin;
     NormalMap normals(width, height);
     thin.lightCount = n;
+    thin.width = width;
     for (size_t p = 0; p < object.seen.pixels.size(); ++p) {
         const int x = static_cast<int>(object.seen.pixels[p]) % object.width,
                   y = static_cast<int>(object.seen.pixels[p]) / object.width;
@@ -75,6 +76,7 @@ PhotographedObject photographedScene(const SynthScene& scene)
     object.truth = rowOf(scene.view.normals, scene.view.seen);
     const size_t n = scene.lights.size();
     object.seen.lightCount = n;
+    object.seen.width = scene.view.normals.width;
     object.seen.pixels = scene.view.seen;
     object.width = scene.view.normals.width;
     object.height = scene.view.normals.height;

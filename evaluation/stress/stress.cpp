@@ -53,9 +53,9 @@ StressPhotographs preparedPhotographs(const PhotographedObject& object, const Ac
     requireSpanningLights(object.lights, object.name);
     StressPhotographs photographs;
     photographs.reconciled = reconcilePhotographs(
-        {evenSample(object.seen), object.photographs, object.irradiancesKnown, object.lights, object.width}, options);
+        {evenSample(object.seen), object.photographs, object.irradiancesKnown, object.lights}, options);
     const CaptureSample& sample = photographs.reconciled.sample;
-    photographs.checked = checkCapture(sample.seen, sample.width, sample.lights, options.normals);
+    photographs.checked = checkCapture(sample.seen, sample.lights, options.normals);
     photographs.seen = selectLights(object.seen, photographs.reconciled.agreeing);
     return photographs;
 }

@@ -1,6 +1,8 @@
 #include "acquisition/capture/observations.h"
 
+#include <algorithm>
 #include <limits>
+#include <set>
 
 #include <gtest/gtest.h>
 
@@ -197,6 +199,44 @@ TEST_F(ObservationsTest, ReaderMayBeMovedAndOutlivesTheCapture)
     Observations block;
     EXPECT_TRUE(second.next(block));
     EXPECT_EQ(block.pixels.size(), size_t{kTestWidth} * kTestHeight);
+}
+
+} // namespace
+} // namespace nacre
+
+namespace nacre {
+namespace {
+
+TEST(PixelSample, HasOnePixelOfEverySquareThatHoldsOne)
+{
+    // A disc and a line one pixel wide, which a plain grid of every n-th pixel could miss.
+    constexpr int kWidth = 300;
+    std::vector<uint32_t> pixels;
+    for (int y = 0; y < kWidth; ++y) {
+        for (int x = 0; x < kWidth; ++x) {
+            const int dx = x - 100, dy = y - 100;
+            if (dx * dx + dy * dy < 90 * 90 || x == 251) {
+                pixels.push_back(static_cast<uint32_t>(y * kWidth + x));
+            }
+        }
+    }
+    const PixelSample sample = samplePixels(pixels, kWidth);
+    ASSERT_GT(sample.spacing, 1);
+    const auto squareOf = [&](uint32_t pixel) {
+        return std::pair(pixel / kWidth / static_cast<uint32_t>(sample.spacing),
+                         pixel % kWidth / static_cast<uint32_t>(sample.spacing));
+    };
+    std::set<std::pair<uint32_t, uint32_t>> of, all;
+    for (const uint32_t pixel : sample.pixels) {
+        EXPECT_TRUE(of.insert(squareOf(pixel)).second) << pixel;
+        EXPECT_TRUE(std::binary_search(pixels.begin(), pixels.end(), pixel));
+    }
+    for (const uint32_t pixel : pixels) {
+        all.insert(squareOf(pixel));
+    }
+    EXPECT_EQ(of, all);
+    EXPECT_TRUE(std::is_sorted(sample.pixels.begin(), sample.pixels.end()));
+    EXPECT_EQ(samplePixels({5, 9}, kWidth).pixels, (std::vector<uint32_t>{5, 9}));
 }
 
 } // namespace

@@ -27,7 +27,7 @@ const StressSubject& subject()
 std::vector<Finding> warningsAfter(const Degradation& degradation)
 {
     const PhotographedObject object = degraded(subject().clean, degradation);
-    return checkCapture(object.seen, object.width, object.lights, {}).findings;
+    return checkCapture(object.seen, object.lights, {}).findings;
 }
 
 TEST(SelfChecks, NothingIsFoundInAGoodCapture)
@@ -64,7 +64,7 @@ TEST(SelfChecks, LambertsMethodsAreDoubtedWhereGlossOrNoiseRules)
     Degradation noisy;
     noisy.noise = 0.1;
     const PhotographedObject object = degraded(subject().clean, noisy);
-    const CheckedSample sample = checkCapture(object.seen, object.width, object.lights, {});
+    const CheckedSample sample = checkCapture(object.seen, object.lights, {});
     const std::vector<Finding> said =
         methodWarnings(sample, NormalMethod::leastSquares, makeLeastSquaresEstimator(object.lights, {}));
     EXPECT_TRUE(contains(said, FindingCode::notLambertian)) << said.size();
@@ -72,7 +72,7 @@ TEST(SelfChecks, LambertsMethodsAreDoubtedWhereGlossOrNoiseRules)
 
 TEST(SelfChecks, TooFewPixelsOrLightsAreNotJudged)
 {
-    const CheckedSample sample = checkCapture(Observations{}, 0, subject().clean.lights, {});
+    const CheckedSample sample = checkCapture(Observations{}, subject().clean.lights, {});
     EXPECT_TRUE(sample.findings.empty());
     EXPECT_TRUE(methodWarnings(sample, NormalMethod::leastSquares, {}).empty());
 }

@@ -189,7 +189,7 @@ TEST(BrdfOnFits, TransfersWithTheProgramsOwnNormals)
         const ReconciledPhotographs reconciled =
             reconcilePhotographs({evenSample(object.seen), object.photographs, true, object.lights}, {});
         const CaptureSample& sample = reconciled.sample;
-        const CheckedSample checked = checkCapture(sample.seen, sample.width, sample.lights, {});
+        const CheckedSample checked = checkCapture(sample.seen, sample.lights, {});
         const ChosenMethod chosen = chooseMethod(sample, checked, {});
         const Observations seen = selectLights(object.seen, reconciled.agreeing);
         const NormalBlock normals = estimateBlock(chosen.estimators.front(), seen, sample.lights);

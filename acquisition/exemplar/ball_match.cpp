@@ -1,0 +1,267 @@
+#include "acquisition/exemplar/ball_match.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Core>
+#include <glm/geometric.hpp>
+
+#include "acquisition/normals/lanes.h"
+
+namespace nacre {
+
+namespace {
+
+// Residuals of roots are truncated here: 16 % of the brightness at the pixel's bright level, which calibration,
+// interreflection and noise stay below and shadows and highlights do not.
+constexpr float kTruncation = 0.08f;
+// Scales are fitted to residuals up to here.
+constexpr float kFitLimit = 1.5f * kTruncation;
+constexpr int kAdditiveSteps = 2;
+constexpr int kPolishSteps = 3;
+
+// g = root * column: one reweighted step from the root that makes the bright levels agree.
+NACRE_VECTOR_CLONES
+void matchRoots(const float* observed, const float* column, size_t stride, float lowRoot, float highRoot, float& root,
+                float& cost)
+{
+    Lanes numerator = allLanes(0), denominator = allLanes(0);
+    for (size_t i = 0; i < stride; i += kLanes) {
+        const Lanes c = lanesAt(column + i), g = lanesAt(observed + i);
+        const Lanes kept = absolute(g - root * c) < kFitLimit ? c : allLanes(0);
+        numerator += kept * g;
+        denominator += kept * c;
+    }
+    const float sum = sumOf(denominator);
+    root = std::clamp(sum > 0 ? sumOf(numerator) / sum : root, lowRoot, highRoot);
+    Lanes costs = allLanes(0);
+    for (size_t i = 0; i < stride; i += kLanes) {
+        const Lanes residual = absolute(lanesAt(observed + i) - root * lanesAt(column + i));
+        costs += residual < kTruncation ? residual : allLanes(kTruncation);
+    }
+    cost = sumOf(costs);
+}
+
+Lanes glossyPrediction(const float* diffuse, const float* gloss, float scale, float inverseBright)
+{
+    const Lanes matte = scale * lanesAt(diffuse), all = matte + inverseBright * lanesAt(gloss),
+                least = kLeastGlossShare * matte;
+    return all > least ? all : least;
+}
+
+// g = sqrt(scale diffuse + gloss / bright): Gauss-Newton steps in the scale, d sqrt(p) / d scale = diffuse / 2 sqrt(p).
+NACRE_VECTOR_CLONES
+void matchGlossy(const float* observed, const float* diffuse, const float* gloss, size_t stride, float inverseBright,
+                 float low, float high, float& scale, float& cost)
+{
+    for (int step = 0; step < kAdditiveSteps; ++step) {
+        Lanes numerator = allLanes(0), denominator = allLanes(0);
+        for (size_t i = 0; i < stride; i += kLanes) {
+            const Lanes root = rootOf(glossyPrediction(diffuse + i, gloss + i, scale, inverseBright));
+            const Lanes residual = lanesAt(observed + i) - root;
+            const Lanes slope = lanesAt(diffuse + i) / (2 * root + 1e-6f);
+            const Lanes kept = absolute(residual) < kFitLimit ? slope : allLanes(0);
+            numerator += kept * residual;
+            denominator += kept * slope;
+        }
+        const float sum = sumOf(denominator);
+        if (sum > 0) {
+            // A step far beyond what the slope describes is cut.
+            scale = std::clamp(scale + sumOf(numerator) / sum, std::max(low, 0.3f * scale), std::min(high, 3 * scale));
+        }
+    }
+    Lanes costs = allLanes(0);
+    for (size_t i = 0; i < stride; i += kLanes) {
+        const Lanes root = rootOf(glossyPrediction(diffuse + i, gloss + i, scale, inverseBright));
+        const Lanes residual = absolute(lanesAt(observed + i) - root);
+        costs += residual < kTruncation ? residual : allLanes(kTruncation);
+    }
+    cost = sumOf(costs);
+}
+
+// Four columns around a place on the ball, bilinearly mixed.
+struct BallCell {
+    std::array<const float*, 4> diffuse{}, gloss{}; // of (x, y), (x + 1, y), (x, y + 1), (x + 1, y + 1)
+    float u = 0, v = 0;
+
+    static float value(const std::array<const float*, 4>& columns, size_t i, float u, float v)
+    {
+        return (1 - v) * ((1 - u) * columns[0][i] + u * columns[1][i]) +
+               v * ((1 - u) * columns[2][i] + u * columns[3][i]);
+    }
+    static glm::vec2 slope(const std::array<const float*, 4>& columns, size_t i, float u, float v)
+    {
+        return {(1 - v) * (columns[1][i] - columns[0][i]) + v * (columns[3][i] - columns[2][i]),
+                (1 - u) * (columns[2][i] - columns[0][i]) + u * (columns[3][i] - columns[1][i])};
+    }
+};
+
+std::optional<BallCell> findCell(const ReflectanceBall& ball, const glm::vec2& texel)
+{
+    const BallGrid& grid = *ball.grid;
+    const int x = std::clamp(static_cast<int>(std::floor(texel.x)), 0, grid.size - 2),
+              y = std::clamp(static_cast<int>(std::floor(texel.y)), 0, grid.size - 2);
+    BallCell cell;
+    for (int k = 0; k < 4; ++k) {
+        const int row = grid.rows[static_cast<size_t>(y + k / 2) * grid.size + x + k % 2];
+        if (row < 0) {
+            return {};
+        }
+        cell.diffuse[k] = &ball.diffuse[row * grid.stride];
+        cell.gloss[k] = ball.additive ? &ball.gloss[row * grid.stride] : nullptr;
+    }
+    cell.u = texel.x - static_cast<float>(x);
+    cell.v = texel.y - static_cast<float>(y);
+    return cell;
+}
+
+// A predicted root and its derivatives by (x, y, scale).
+struct Prediction {
+    float root;
+    Eigen::Vector3f slope;
+};
+
+Prediction predictRoot(const BallCell& cell, bool additive, size_t i, float scale, float inverseBright)
+{
+    const float diffuse = BallCell::value(cell.diffuse, i, cell.u, cell.v);
+    const glm::vec2 along = BallCell::slope(cell.diffuse, i, cell.u, cell.v);
+    if (!additive) {
+        const float root = std::sqrt(scale);
+        return {root * diffuse, {root * along.x, root * along.y, diffuse / (2 * root)}};
+    }
+    const float gloss = inverseBright * BallCell::value(cell.gloss, i, cell.u, cell.v), matte = scale * diffuse;
+    const bool isFloor = matte + gloss < kLeastGlossShare * matte;
+    const float share = isFloor ? kLeastGlossShare : 1.0f;
+    const float value = isFloor ? kLeastGlossShare * matte : matte + gloss;
+    const glm::vec2 glossAlong =
+        isFloor ? glm::vec2(0) : inverseBright * BallCell::slope(cell.gloss, i, cell.u, cell.v);
+    const float root = std::sqrt(value), half = root > 1e-4f ? 0.5f / root : 0.0f;
+    const glm::vec2 slope = half * (share * scale * along + glossAlong);
+    return {root, {slope.x, slope.y, half * share * diffuse}};
+}
+
+// The normal equations of one step, and the cost where it starts.
+struct StepEquations {
+    Eigen::Matrix3f matrix = Eigen::Matrix3f::Zero();
+    Eigen::Vector3f right = Eigen::Vector3f::Zero();
+    float cost = 0;
+};
+
+StepEquations equationsAt(const BallCell& cell, bool additive, const float* observed, size_t lights, float scale,
+                          float inverseBright)
+{
+    StepEquations equations;
+    for (size_t i = 0; i < lights; ++i) {
+        const Prediction predicted = predictRoot(cell, additive, i, scale, inverseBright);
+        const float residual = observed[i] - predicted.root, size = std::abs(residual);
+        equations.cost += std::min(size, kTruncation);
+        const float weight = std::max(0.0f, 1 - size / kFitLimit);
+        equations.matrix += weight * predicted.slope * predicted.slope.transpose();
+        equations.right += weight * residual * predicted.slope;
+    }
+    equations.cost /= kTruncation * static_cast<float>(lights);
+    return equations;
+}
+
+} // namespace
+
+BallMatch matchAtRow(const MatchModel& model, const PixelLattice& lattice, size_t pixel, int row, float scale)
+{
+    const BallGrid& grid = *model.ball.grid;
+    const float bright = lattice.bright[pixel], low = model.albedos.low / bright, high = model.albedos.high / bright;
+    const float* diffuse = &model.ball.diffuse[row * grid.stride];
+    BallMatch match{{}, 0, 2, row};
+    if (model.ball.additive) {
+        match.scale = std::clamp(scale, low, high);
+        matchGlossy(lattice.rootsOf(pixel), diffuse, &model.ball.gloss[row * grid.stride], grid.stride, 1 / bright, low,
+                    high, match.scale, match.cost);
+    } else {
+        if (model.ball.bright[row] <= 0) {
+            return match;
+        }
+        const float lowRoot = std::sqrt(low), highRoot = std::sqrt(high);
+        float root = std::clamp(1 / model.ball.bright[row], lowRoot, highRoot);
+        matchRoots(lattice.rootsOf(pixel), diffuse, grid.stride, lowRoot, highRoot, root, match.cost);
+        match.scale = root * root;
+    }
+    match.cost /= kTruncation * static_cast<float>(grid.lightCount);
+    return match;
+}
+
+BallMatch polishedMatch(const MatchModel& model, const PixelLattice& lattice, size_t pixel, const BallMatch& match)
+{
+    const BallGrid& grid = *model.ball.grid;
+    const float inverseBright = 1 / lattice.bright[pixel];
+    BallMatch best = match, current = match;
+    best.cost = 2;
+    for (int step = 0; step <= kPolishSteps; ++step) {
+        const std::optional<BallCell> cell = findCell(model.ball, current.texel);
+        if (!cell || !(current.scale > 0)) {
+            break;
+        }
+        StepEquations equations = equationsAt(*cell, model.ball.additive, lattice.rootsOf(pixel), grid.lightCount,
+                                              current.scale, inverseBright);
+        current.cost = equations.cost;
+        if (current.cost < best.cost) {
+            best = current;
+        }
+        // Damped by a thousandth, so that a direction that no observation tells stays where it is.
+        equations.matrix.diagonal() *= 1.001f;
+        equations.matrix.diagonal().array() += 1e-9f;
+        const Eigen::Vector3f change = equations.matrix.ldlt().solve(equations.right);
+        if (!change.allFinite()) {
+            break;
+        }
+        glm::vec2 moved = current.texel + glm::vec2(change.x(), change.y()) - match.texel;
+        moved /= std::max(1.0f, glm::length(moved));
+        current.texel = match.texel + moved;
+        current.scale =
+            std::clamp(current.scale + change.z(), std::max(model.albedos.low * inverseBright, 0.5f * current.scale),
+                       std::min(model.albedos.high * inverseBright, 2 * current.scale));
+    }
+    if (best.cost > 1) {
+        return match;
+    }
+    best.row = grid.rowAt(best.texel);
+    return best;
+}
+
+BallMatch matchAtTexel(const MatchModel& model, const PixelLattice& lattice, size_t pixel, const glm::vec2& texel,
+                       float scale)
+{
+    const BallGrid& grid = *model.ball.grid;
+    const int row = grid.rowAt(texel);
+    if (row < 0) {
+        return {texel, 0, 2, -1};
+    }
+    BallMatch match = matchAtRow(model, lattice, pixel, row, scale);
+    match.texel = texel;
+    const std::optional<BallCell> cell = findCell(model.ball, texel);
+    const float inverseBright = 1 / lattice.bright[pixel];
+    for (int step = 0; step <= kPolishSteps && cell && match.scale > 0; ++step) {
+        const StepEquations equations = equationsAt(*cell, model.ball.additive, lattice.rootsOf(pixel), grid.lightCount,
+                                                    match.scale, inverseBright);
+        match.cost = equations.cost;
+        if (step < kPolishSteps && equations.matrix(2, 2) > 0) {
+            match.scale = std::clamp(match.scale + equations.right.z() / equations.matrix(2, 2),
+                                     std::max(model.albedos.low * inverseBright, 0.5f * match.scale),
+                                     std::min(model.albedos.high * inverseBright, 2 * match.scale));
+        }
+    }
+    return match;
+}
+
+void predictMatch(const MatchModel& model, const BallMatch& match, float bright, float* predicted)
+{
+    const BallGrid& grid = *model.ball.grid;
+    const std::optional<BallCell> cell = findCell(model.ball, match.texel);
+    for (size_t i = 0; i < grid.lightCount; ++i) {
+        const float root = cell ? predictRoot(*cell, model.ball.additive, i, match.scale, 1 / bright).root : 0.0f;
+        predicted[i] = root * root * bright;
+    }
+}
+
+} // namespace nacre

@@ -1,0 +1,85 @@
+#include "acquisition/exemplar/exemplar_estimator.h"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include <Eigen/Dense>
+
+#include "acquisition/exemplar/exemplar_model.h"
+#include "engine/files/parallel_for.h"
+
+namespace nacre {
+
+namespace {
+
+constexpr size_t kJudgedPerTask = 512;
+
+// From the scatter of the used residuals through the lights that are left, as for Lambertian pixels.
+float confidenceOf(std::span<const float> observed, std::span<const float> predicted, std::span<const Verdict> verdicts,
+                   const std::vector<Light>& lights)
+{
+    Eigen::Matrix3d gram = Eigen::Matrix3d::Zero();
+    double squares = 0, brightness = 0;
+    size_t used = 0;
+    for (size_t i = 0; i < observed.size(); ++i) {
+        if (verdicts[i] == Verdict::used) {
+            const Eigen::Vector3d l(lights[i].direction.x, lights[i].direction.y, lights[i].direction.z);
+            gram += l * l.transpose();
+            squares += (observed[i] - predicted[i]) * (observed[i] - predicted[i]);
+            brightness += observed[i];
+            ++used;
+        }
+    }
+    if (used < 3 || !(gram.determinant() > 0)) {
+        return 0;
+    }
+    const double scatter = std::sqrt(squares / std::max<double>(1, static_cast<double>(used) - 3));
+    return nacre::confidenceOf(normalUncertainty(static_cast<float>(scatter),
+                                                 static_cast<float>(brightness / static_cast<double>(used)),
+                                                 static_cast<float>(gram.inverse().trace())));
+}
+
+struct ExemplarSetup {
+    std::vector<Light> lights;
+    ExemplarModel model;
+    int threads;
+};
+
+NormalBlock judgedBlock(const ExemplarSetup& setup, const PixelLattice& pixels, const std::vector<BallMatch>& matches)
+{
+    const size_t n = pixels.lightCount;
+    NormalBlock block{std::vector<PixelNormal>(matches.size()), std::vector<Verdict>(matches.size() * n)};
+    parallelFor(matches.size(), kJudgedPerTask, setup.threads, [&](size_t first, size_t last) {
+        std::vector<float> predicted(n);
+        for (size_t p = first; p < last; ++p) {
+            const std::span<const float> observed = pixels.intensities.ofPixel(p);
+            const auto verdicts = std::span(block.verdicts).subspan(p * n, n);
+            predictMatch(setup.model.match, matches[p], pixels.bright[p], predicted.data());
+            judge(observed, predicted, verdicts);
+            if (matches[p].row < 0 || !(matches[p].scale > 0)) {
+                continue;
+            }
+            const auto used = std::count(verdicts.begin(), verdicts.end(), Verdict::used);
+            block.pixels[p] = {normalOfBallTexel(matches[p].texel, setup.model.grid->size),
+                               matches[p].scale * pixels.bright[p],
+                               confidenceOf(observed, predicted, verdicts, setup.lights), static_cast<uint16_t>(used)};
+        }
+    });
+    return block;
+}
+
+} // namespace
+
+NormalEstimator makeExemplarEstimator(const Intensities& sample, const std::vector<Light>& lights,
+                                      const NormalOptions& options, std::vector<Finding>& findings)
+{
+    const auto setup = std::make_shared<const ExemplarSetup>(
+        ExemplarSetup{lights, makeExemplarModel(sample, lights, options, findings), options.threads});
+    return [setup](const Intensities& intensities) {
+        const PixelLattice pixels = makePixelLattice(intensities, setup->threads);
+        return judgedBlock(*setup, pixels, matchPixels(setup->model, pixels, setup->threads));
+    };
+}
+
+} // namespace nacre

@@ -1,0 +1,127 @@
+#include "acquisition/exemplar/pixel_lattice.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "engine/files/parallel_for.h"
+
+namespace nacre {
+
+namespace {
+
+constexpr size_t kPreparedPerTask = 1024;
+
+void prepareRoots(PixelLattice& lattice, int threads)
+{
+    const Intensities& given = lattice.intensities;
+    lattice.lightCount = given.lightCount;
+    lattice.stride = given.stride;
+    lattice.roots.resize(given.values.size());
+    lattice.bright.resize(given.pixelCount());
+    parallelFor(given.pixelCount(), kPreparedPerTask, threads, [&](size_t first, size_t last) {
+        for (size_t p = first; p < last; ++p) {
+            const float bright = std::max(brightLevel(given.ofPixel(p)), std::numeric_limits<float>::min());
+            const float* values = given.padded(p);
+            lattice.bright[p] = bright;
+            for (size_t i = 0; i < given.stride; ++i) {
+                lattice.roots[p * given.stride + i] = std::sqrt(std::max(values[i] / bright, 0.0f));
+            }
+        }
+    });
+}
+
+// The squares of the lattice that hold a pixel, in reading order; `parents` as promised.
+PixelLattice squaresOf(const PixelLattice& lattice, int spacing, std::vector<int>& parents)
+{
+    PixelLattice coarse;
+    coarse.width = (lattice.width + spacing - 1) / spacing;
+    coarse.height = (lattice.height + spacing - 1) / spacing;
+    coarse.index.assign(static_cast<size_t>(coarse.width) * coarse.height, -1);
+    const auto squareOf = [&](uint32_t place) {
+        const uint32_t width = static_cast<uint32_t>(lattice.width), step = static_cast<uint32_t>(spacing);
+        return place / width / step * static_cast<uint32_t>(coarse.width) + place % width / step;
+    };
+    for (const uint32_t place : lattice.places) {
+        coarse.index[squareOf(place)] = 0;
+    }
+    for (size_t square = 0; square < coarse.index.size(); ++square) {
+        if (coarse.index[square] == 0) {
+            coarse.index[square] = static_cast<int>(coarse.places.size());
+            coarse.places.push_back(static_cast<uint32_t>(square));
+        }
+    }
+    parents.clear();
+    for (const uint32_t place : lattice.places) {
+        parents.push_back(coarse.index[squareOf(place)]);
+    }
+    return coarse;
+}
+
+} // namespace
+
+PixelLattice makePixelLattice(Intensities intensities, int threads)
+{
+    PixelLattice lattice;
+    const size_t count = intensities.pixelCount();
+    if (intensities.width > 0) {
+        lattice.width = intensities.width;
+        lattice.places = intensities.places;
+        const uint32_t last = lattice.places.empty() ? 0 : lattice.places.back();
+        lattice.height = static_cast<int>(last) / lattice.width + 1;
+    } else {
+        lattice.width = std::max<int>(1, static_cast<int>(count));
+        lattice.height = 1;
+        for (size_t p = 0; p < count; ++p) {
+            lattice.places.push_back(static_cast<uint32_t>(p));
+        }
+    }
+    lattice.index.assign(static_cast<size_t>(lattice.width) * lattice.height, -1);
+    for (size_t p = 0; p < count; ++p) {
+        lattice.index[lattice.places[p]] = static_cast<int>(p);
+    }
+    lattice.intensities = std::move(intensities);
+    prepareRoots(lattice, threads);
+    return lattice;
+}
+
+PixelLattice thinnedLattice(const PixelLattice& lattice, int spacing, int threads, std::vector<int>& parents)
+{
+    PixelLattice thin = squaresOf(lattice, spacing, parents);
+    std::vector<size_t> chosen(thin.pixelCount());
+    std::vector<int> distances(thin.pixelCount(), std::numeric_limits<int>::max());
+    for (size_t p = 0; p < lattice.pixelCount(); ++p) {
+        const int x = static_cast<int>(lattice.places[p]) % lattice.width % spacing,
+                  y = static_cast<int>(lattice.places[p]) / lattice.width % spacing;
+        const int dx = 2 * x + 1 - spacing, dy = 2 * y + 1 - spacing, distance = dx * dx + dy * dy;
+        if (distance < distances[parents[p]]) {
+            distances[parents[p]] = distance;
+            chosen[parents[p]] = p;
+        }
+    }
+    thin.intensities = selectPixels(lattice.intensities, chosen);
+    prepareRoots(thin, threads);
+    return thin;
+}
+
+PixelLattice halvedLattice(const PixelLattice& lattice, int threads, std::vector<int>& parents)
+{
+    PixelLattice coarse = squaresOf(lattice, 2, parents);
+    coarse.intensities = makeIntensities(coarse.pixelCount(), lattice.lightCount);
+    std::vector<int> counts(coarse.pixelCount(), 0);
+    for (const int parent : parents) {
+        ++counts[parent];
+    }
+    for (size_t p = 0; p < parents.size(); ++p) {
+        const float* from = lattice.intensities.padded(p);
+        float* to = &coarse.intensities.values[parents[p] * coarse.intensities.stride];
+        for (size_t i = 0; i < lattice.lightCount; ++i) {
+            to[i] += from[i] / static_cast<float>(counts[parents[p]]);
+        }
+    }
+    prepareRoots(coarse, threads);
+    return coarse;
+}
+
+} // namespace nacre

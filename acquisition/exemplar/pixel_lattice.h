@@ -1,0 +1,36 @@
+#pragma once
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "acquisition/normals/intensities.h"
+
+namespace nacre {
+
+// Pixels that know their neighbours. Observations are held as roots g = sqrt(I / q), q the pixel's bright level.
+struct PixelLattice {
+    int width = 0;
+    int height = 0;
+    size_t lightCount = 0;
+    size_t stride = 0;
+    std::vector<int> index;       // width x height: the pixel there, -1 for none
+    std::vector<uint32_t> places; // per pixel, y * width + x
+    std::vector<float> roots;     // [pixel * stride + light], padded with zeros
+    std::vector<float> bright;    // per pixel, above 0
+    Intensities intensities;      // as given
+
+    size_t pixelCount() const { return places.size(); }
+    const float* rootsOf(size_t pixel) const { return &roots[pixel * stride]; }
+};
+
+// The intensities' pixels where they are in their picture; side by side where that is not known.
+PixelLattice makePixelLattice(Intensities intensities, int threads);
+
+// One pixel for each square of `spacing`: of those that are there the nearest to its middle, so that highlights stay
+// as they are. `parents`: for each pixel its square's.
+PixelLattice thinnedLattice(const PixelLattice& lattice, int spacing, int threads, std::vector<int>& parents);
+
+// Means of two by two.
+PixelLattice halvedLattice(const PixelLattice& lattice, int threads, std::vector<int>& parents);
+
+} // namespace nacre

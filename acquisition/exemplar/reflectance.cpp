@@ -1,0 +1,169 @@
+#include "acquisition/exemplar/reflectance.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "acquisition/normals/intensities.h"
+#include "engine/files/measures.h"
+#include "engine/files/parallel_for.h"
+
+namespace nacre {
+
+namespace {
+
+constexpr size_t kBallRowsPerTask = 128;
+constexpr float kShadeAnchor = 0.8f;
+constexpr float kLeastPowerCosine = 0.03f;
+
+// T over thetaH for each light, whose thetaD is fixed.
+std::vector<float> lightProfiles(const BallGrid& grid, const Reflectance& reflectance)
+{
+    std::vector<float> profiles(grid.lightCount * kHalfBins);
+    for (size_t i = 0; i < grid.lightCount; ++i) {
+        const float place = std::clamp(differenceBinOf(grid.halves[i].z, grid.largestThetaD) - 0.5f, 0.0f,
+                                       static_cast<float>(kDifferenceBins - 1));
+        const int bin = std::min(static_cast<int>(place), kDifferenceBins - 2);
+        const float share = place - static_cast<float>(bin);
+        for (int half = 0; half < kHalfBins; ++half) {
+            const float* lobe = &reflectance.lobe[static_cast<size_t>(half) * kDifferenceBins + bin];
+            profiles[i * kHalfBins + half] = lobe[0] * (1 - share) + lobe[1] * share;
+        }
+    }
+    return profiles;
+}
+
+Reflectance tabulated(const BrdfModel& model, float largestThetaD)
+{
+    Reflectance result;
+    for (int half = 0; half < kHalfBins; ++half) {
+        for (int difference = 0; difference < kDifferenceBins; ++difference) {
+            const float thetaH = thetaHOfBin(half),
+                        thetaD = (static_cast<float>(difference) + 0.5f) / kDifferenceBins * largestThetaD;
+            // phiD = 90 degrees: light and view stand beside the plane of n and h, both above the horizon longest.
+            const glm::vec3 h(std::sin(thetaH), 0, std::cos(thetaH)), aside(0, std::sin(thetaD), 0);
+            result.lobe[static_cast<size_t>(half) * kDifferenceBins + difference] =
+                static_cast<float>(kPi) *
+                greyOf(evaluate(model, {0, 0, 1}, std::cos(thetaD) * h + aside, std::cos(thetaD) * h - aside));
+        }
+    }
+    return result;
+}
+
+// ABC lobes D = A / (1 + B (1 - cos thetaH))^C (Loew et al. 2012): B sets the width (1/sqrt(B) radians), C the tail.
+constexpr float kLobeWidths[] = {20, 150, 1000, 7000, 50000};
+constexpr float kLobeTails[] = {0.6f, 1.0f, 1.6f, 2.6f};
+// The lobe's peak over the diffuse part; 0: no diffuse part, as in metals.
+constexpr float kLobePeaks[] = {0.3f, 1.5f, 6, 25, 100, 0};
+constexpr float kLobeIor = 1.6f;
+
+NamedBrdf builtInLobe(float width, float tail, float peak)
+{
+    const float f0 = (kLobeIor - 1) * (kLobeIor - 1) / ((kLobeIor + 1) * (kLobeIor + 1));
+    AbcModel model;
+    model.kD = glm::vec3(peak > 0 ? 1.0f : 0.0f);
+    model.A = glm::vec3((peak > 0 ? peak : 1.0f) / f0);
+    model.B = width;
+    model.C = tail;
+    model.ior = kLobeIor;
+    return {fmt::format("built-in lobe of B {:g}, C {:g}, {}", width, tail,
+                        peak > 0 ? fmt::format("{:g} x diffuse", peak) : "no diffuse part"),
+            model};
+}
+
+std::string withoutNumber(std::string name)
+{
+    while (!name.empty() && std::isdigit(static_cast<unsigned char>(name.back()))) {
+        name.pop_back();
+    }
+    return name;
+}
+
+void addFits(const std::string& family, const std::vector<NamedBrdf>& fits, const std::vector<std::string>& excluded,
+             std::vector<NamedBrdf>& dictionary)
+{
+    for (const NamedBrdf& fit : fits) {
+        const bool out = std::any_of(excluded.begin(), excluded.end(), [&](const std::string& name) {
+            return withoutNumber(name) == withoutNumber(fit.name);
+        });
+        if (!out) {
+            dictionary.push_back({family + ":" + fit.name, fit.model});
+        }
+    }
+}
+
+} // namespace
+
+float Reflectance::shadeAt(float cosine) const
+{
+    const float place = std::clamp(cosine, 0.0f, 1.0f) * (kShadeKnots - 1);
+    const int knot = std::min(static_cast<int>(place), kShadeKnots - 2);
+    const float share = place - static_cast<float>(knot);
+    return shade[knot] * (1 - share) + shade[knot + 1] * share;
+}
+
+std::array<float, kShadeKnots> shadeOfPower(float exponent)
+{
+    std::array<float, kShadeKnots> shade{};
+    for (int k = 0; k < kShadeKnots; ++k) {
+        const float cosine = std::max(static_cast<float>(k) / (kShadeKnots - 1), kLeastPowerCosine);
+        shade[k] = (exponent - 1) * std::log(cosine / kShadeAnchor);
+    }
+    return shade;
+}
+
+ReflectanceBall makeReflectanceBall(const BallGrid& grid, const Reflectance& reflectance, int threads)
+{
+    ReflectanceBall ball{&grid, reflectance.additive, std::vector<float>(grid.cosines.size(), 0.0f), {}, {}};
+    ball.gloss.resize(reflectance.additive ? grid.cosines.size() : 0, 0.0f);
+    ball.bright.resize(grid.normals.size());
+    const std::vector<float> profiles = lightProfiles(grid, reflectance);
+    parallelFor(grid.normals.size(), kBallRowsPerTask, threads, [&](size_t first, size_t last) {
+        for (size_t row = first; row < last; ++row) {
+            for (size_t i = 0; i < grid.lightCount; ++i) {
+                const size_t at = row * grid.stride + i;
+                const float cosine = grid.cosines[at];
+                if (cosine <= 0) {
+                    continue;
+                }
+                const int bin = static_cast<int>(grid.halfBins[at]);
+                const float share = grid.halfBins[at] - static_cast<float>(bin);
+                const float* profile = &profiles[i * kHalfBins + bin];
+                const float lobe = (profile[0] * (1 - share) + profile[1] * share) * cosine;
+                const float shade = std::exp(reflectance.shadeAt(cosine));
+                ball.diffuse[at] = reflectance.additive ? shade * cosine : std::sqrt(lobe * shade);
+                if (reflectance.additive) {
+                    ball.gloss[at] = lobe;
+                }
+            }
+            ball.bright[row] = brightLevel({&ball.diffuse[row * grid.stride], grid.lightCount});
+        }
+    });
+    return ball;
+}
+
+std::vector<NamedReflectance> reflectanceDictionary(const std::filesystem::path& fitsFolder,
+                                                    const std::vector<std::string>& excluded, float largestThetaD)
+{
+    std::vector<NamedBrdf> models;
+    for (const float width : kLobeWidths) {
+        for (const float tail : kLobeTails) {
+            for (const float peak : kLobePeaks) {
+                models.push_back(builtInLobe(width, tail, peak));
+            }
+        }
+    }
+    if (!fitsFolder.empty()) {
+        addFits("merl-abc", loadAbcFits(fitsFolder / "merl_abc_params.csv"), excluded, models);
+        addFits("merl-sgd", loadSgdFits(fitsFolder / "merl_sgd_params.csv"), excluded, models);
+    }
+    std::vector<NamedReflectance> dictionary{{"Lambert", {}}};
+    for (const NamedBrdf& named : models) {
+        dictionary.push_back({named.name, tabulated(named.model, largestThetaD)});
+    }
+    return dictionary;
+}
+
+} // namespace nacre

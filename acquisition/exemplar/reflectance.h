@@ -1,0 +1,59 @@
+#pragma once
+#include <array>
+#include <filesystem>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "acquisition/exemplar/ball_grid.h"
+#include "engine/brdf/brdf_models.h"
+
+namespace nacre {
+
+constexpr int kShadeKnots = 17; // n.l = 0, 1/16, ... 1
+
+// A grey reflectance as a fixed view sees it, up to each pixel's albedo a. What a pixel with normal n shows of a light
+// of irradiance 1 is
+//   a T(thetaH, thetaD) e^u(n.l) n.l           where gloss is scaled by the albedo, or
+//   (a e^u(n.l) + T(thetaH, thetaD)) n.l       where gloss is common to the object (additive), whatever the albedo.
+// u is how the diffuse part departs from Lambert's law: 0 is none.
+struct Reflectance {
+    bool additive = false;
+    std::array<float, kShadeKnots> shade{};                                          // u
+    std::vector<float> lobe = std::vector<float>(kHalfBins * kDifferenceBins, 1.0f); // T [half * bins + difference]
+
+    float shadeAt(float cosine) const;
+};
+
+// The least that additive gloss leaves of the diffuse part, where the measured one is negative.
+constexpr float kLeastGlossShare = 0.05f;
+
+// u of f proportional to (n.l)^(exponent - 1), 0 at n.l = 0.8.
+std::array<float, kShadeKnots> shadeOfPower(float exponent);
+
+// The reference balls of a reflectance: for each row of the grid what it shows under every light. A pixel's
+// observations I are compared as g = sqrt(I / q), q its bright level: the root evens out the noise of bright and dark.
+struct ReflectanceBall {
+    const BallGrid* grid = nullptr;
+    bool additive = false;
+    // Multiplicative: square roots of what albedo 1 shows. Additive: the diffuse part of albedo 1.
+    std::vector<float> diffuse; // [row * stride + light]
+    std::vector<float> gloss;   // additive alone
+    std::vector<float> bright;  // per row, the bright level of `diffuse`
+};
+
+ReflectanceBall makeReflectanceBall(const BallGrid& grid, const Reflectance& reflectance, int threads);
+
+struct NamedReflectance {
+    std::string name;
+    Reflectance reflectance;
+};
+
+// Known reflectances to explain an object by. Built in: Lambert, and Lambert plus an ABC lobe over a grid of widths,
+// tails and strengths, from matt to metal. `fitsFolder` (empty: none) adds the published fits, named merl-abc:NAME and
+// merl-sgd:NAME. `excluded` leaves out published fits by NAME, in both families and with their numbered siblings
+// (gold-paint takes gold-paint2 along). Tabulated up to the thetaD given, in radians.
+std::vector<NamedReflectance> reflectanceDictionary(const std::filesystem::path& fitsFolder,
+                                                    const std::vector<std::string>& excluded, float largestThetaD);
+
+} // namespace nacre

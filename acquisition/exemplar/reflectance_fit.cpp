@@ -1,0 +1,312 @@
+#include "acquisition/exemplar/reflectance_fit.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <Eigen/Dense>
+#include <Eigen/SparseCholesky>
+#include <Eigen/SparseCore>
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
+
+#include "engine/files/measures.h"
+
+namespace nacre {
+
+namespace {
+
+constexpr int kLobeTexels = kHalfBins * kDifferenceBins;
+constexpr size_t kMostFitted = 60000; // observations
+// Grazing light: f = I / (n.l) multiplies errors of the normal.
+constexpr float kLeastFitCosine = 0.15f;
+// Observations below this share of what is predicted are in shadow, and the worst pixels have no say.
+constexpr float kLitShare = 0.5f;
+constexpr double kPixelsWithSay = 0.8;
+// Additive gloss is measured against what is diffuse, which counts from here on.
+constexpr float kDiffuseThetaH = 40; // degrees
+constexpr float kAnchorFrom = 40, kAnchorTo = 70;
+// A bin of so many observations counts half against its neighbours.
+constexpr double kHalfCounted = 10, kHalfCountedShade = 30;
+// Curvature of u costs much, since n.l and the normal's slant are easily taken for each other.
+constexpr double kShadeStiffness = 30;
+constexpr double kLobeStiffness = 0.3;
+constexpr int kShadeRounds = 4;
+constexpr int kFewestInAnchor = 3;
+constexpr float kLeastValue = 1e-6f;
+// The unit of asinh, which is linear below and logarithmic beyond: this share of the median albedo.
+constexpr float kGlossUnit = 0.1f;
+// Albedos of the well explained pixels, and what is added to them.
+constexpr double kWellExplained = 0.7, kLowAlbedo = 0.02, kHighAlbedo = 0.98;
+constexpr float kAlbedoMargin = 1.5f;
+
+// An observation, over its cosine and over the pixel's bright level.
+struct FitSample {
+    int bin;
+    float value;
+    float scale;
+    float bright;
+    float cosine; // and weight
+};
+
+using WeightedValues = std::vector<std::pair<float, float>>;
+
+float weightedMedian(WeightedValues& values)
+{
+    if (values.empty()) {
+        return 0;
+    }
+    std::sort(values.begin(), values.end());
+    double half = 0, sum = 0;
+    for (const auto& [value, weight] : values) {
+        half += weight / 2;
+    }
+    for (const auto& [value, weight] : values) {
+        sum += weight;
+        if (sum >= half) {
+            return value;
+        }
+    }
+    return values.back().first;
+}
+
+std::vector<FitSample> fitSamples(const PixelLattice& lattice, const MatchModel& model,
+                                  const std::vector<BallMatch>& matches)
+{
+    const BallGrid& grid = *model.ball.grid;
+    std::vector<float> costs;
+    for (const BallMatch& match : matches) {
+        costs.push_back(match.cost);
+    }
+    const float worst = quantile(costs, kPixelsWithSay);
+    const size_t step = std::max<size_t>(1, matches.size() * lattice.lightCount / kMostFitted);
+    std::vector<FitSample> samples;
+    std::vector<float> predicted(lattice.lightCount);
+    for (size_t p = 0; p < matches.size(); p += step) {
+        if (matches[p].cost > worst || matches[p].row < 0 || !(matches[p].scale > 0)) {
+            continue;
+        }
+        const glm::vec3 normal = normalOfBallTexel(matches[p].texel, grid.size);
+        predictMatch(model, matches[p], lattice.bright[p], predicted.data());
+        for (size_t i = 0; i < lattice.lightCount; ++i) {
+            const float cosine = glm::dot(normal, grid.directions[i]), root = lattice.rootsOf(p)[i],
+                        observed = root * root;
+            if (cosine < kLeastFitCosine || observed * lattice.bright[p] < kLitShare * predicted[i]) {
+                continue;
+            }
+            const int half = std::min(static_cast<int>(halfBinOf(glm::dot(normal, grid.halves[i]))), kHalfBins - 1),
+                      difference = std::min(static_cast<int>(differenceBinOf(grid.halves[i].z, grid.largestThetaD)),
+                                            kDifferenceBins - 1);
+            samples.push_back(
+                {half * kDifferenceBins + difference, observed / cosine, matches[p].scale, lattice.bright[p], cosine});
+        }
+    }
+    return samples;
+}
+
+float logOverAlbedo(const FitSample& sample)
+{
+    return std::log(std::max(kLeastValue, sample.value / sample.scale));
+}
+
+// Bins with their values and weights, holes and noise bridged: second differences along thetaH, first along thetaD.
+std::vector<float> smoothLobe(const std::vector<float>& values, const std::vector<double>& weights)
+{
+    std::vector<Eigen::Triplet<double>> entries;
+    Eigen::VectorXd right(kLobeTexels);
+    const auto penalise = [&](std::initializer_list<std::pair<int, double>> row) {
+        for (const auto& [a, p] : row) {
+            for (const auto& [b, q] : row) {
+                entries.emplace_back(a, b, kLobeStiffness * p * q);
+            }
+        }
+    };
+    for (int bin = 0; bin < kLobeTexels; ++bin) {
+        entries.emplace_back(bin, bin, weights[bin] + kLeastValue);
+        right[bin] = weights[bin] * values[bin];
+        const int half = bin / kDifferenceBins;
+        if (half > 0 && half + 1 < kHalfBins) {
+            penalise({{bin - kDifferenceBins, 1}, {bin, -2}, {bin + kDifferenceBins, 1}});
+        }
+        if (bin % kDifferenceBins + 1 < kDifferenceBins) {
+            penalise({{bin, 1}, {bin + 1, -1}});
+        }
+    }
+    Eigen::SparseMatrix<double> matrix(kLobeTexels, kLobeTexels);
+    matrix.setFromTriplets(entries.begin(), entries.end());
+    const Eigen::VectorXd solved = Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>>(matrix).solve(right);
+    std::vector<float> result(kLobeTexels);
+    std::transform(solved.begin(), solved.end(), result.begin(), [](double v) { return static_cast<float>(v); });
+    return result;
+}
+
+std::vector<float> medians(std::vector<WeightedValues>& bins)
+{
+    std::vector<float> result;
+    for (WeightedValues& bin : bins) {
+        result.push_back(weightedMedian(bin));
+    }
+    return result;
+}
+
+std::vector<double> binWeights(const std::vector<WeightedValues>& bins)
+{
+    std::vector<double> weights;
+    for (const WeightedValues& bin : bins) {
+        const double count = static_cast<double>(bin.size());
+        weights.push_back(count / (count + kHalfCounted));
+    }
+    return weights;
+}
+
+bool isDiffuse(int bin)
+{
+    return glm::degrees(thetaHOfBin(bin / kDifferenceBins)) >= kDiffuseThetaH;
+}
+
+// u from the residuals of its knots, 0 at n.l = 0.8; answers what was there.
+float fitShade(std::array<WeightedValues, kShadeKnots>& knots, Reflectance& reflectance)
+{
+    Eigen::Matrix<double, kShadeKnots, kShadeKnots> matrix = Eigen::Matrix<double, kShadeKnots, kShadeKnots>::Zero();
+    Eigen::Matrix<double, kShadeKnots, 1> right = Eigen::Matrix<double, kShadeKnots, 1>::Zero();
+    for (int k = 0; k < kShadeKnots; ++k) {
+        const double count = static_cast<double>(knots[k].size());
+        const double weight = count / (count + kHalfCountedShade) + 1e-4;
+        matrix(k, k) += weight;
+        right[k] += weight * weightedMedian(knots[k]);
+    }
+    for (int k = 1; k + 1 < kShadeKnots; ++k) {
+        Eigen::Matrix<double, kShadeKnots, 1> curvature = Eigen::Matrix<double, kShadeKnots, 1>::Zero();
+        curvature.segment<3>(k - 1) << 1, -2, 1;
+        matrix += kShadeStiffness * curvature * curvature.transpose();
+    }
+    const Eigen::Matrix<double, kShadeKnots, 1> solved = matrix.ldlt().solve(right);
+    for (int k = 0; k < kShadeKnots; ++k) {
+        reflectance.shade[k] = static_cast<float>(solved[k]);
+    }
+    const float anchor = reflectance.shadeAt(0.8f);
+    for (float& value : reflectance.shade) {
+        value -= anchor;
+    }
+    return anchor;
+}
+
+int knotOf(float cosine)
+{
+    return static_cast<int>(std::lround(std::clamp(cosine, 0.0f, 1.0f) * (kShadeKnots - 1)));
+}
+
+// log of what the diffuse part of albedo 1 is at n.l = 0.8.
+float fitDiffuse(const std::vector<FitSample>& samples, Reflectance& reflectance)
+{
+    std::array<WeightedValues, kShadeKnots> knots;
+    for (const FitSample& sample : samples) {
+        if (isDiffuse(sample.bin)) {
+            knots[knotOf(sample.cosine)].push_back({logOverAlbedo(sample), sample.cosine});
+        }
+    }
+    return fitShade(knots, reflectance);
+}
+
+std::vector<WeightedValues> binned(const std::vector<FitSample>& samples, const Reflectance& reflectance)
+{
+    std::vector<WeightedValues> bins(kLobeTexels);
+    for (const FitSample& sample : samples) {
+        bins[sample.bin].push_back({logOverAlbedo(sample) - reflectance.shadeAt(sample.cosine), sample.cosine});
+    }
+    return bins;
+}
+
+// T and u in turn; answers log of what T was at its anchor.
+float fitMultiplicative(const std::vector<FitSample>& samples, Reflectance& reflectance)
+{
+    for (int round = 0; round < kShadeRounds; ++round) {
+        std::vector<WeightedValues> bins = binned(samples, reflectance);
+        const std::vector<float> lobe = medians(bins);
+        std::array<WeightedValues, kShadeKnots> knots;
+        for (const FitSample& sample : samples) {
+            if (bins[sample.bin].size() >= static_cast<size_t>(kHalfCounted)) {
+                knots[knotOf(sample.cosine)].push_back({logOverAlbedo(sample) - lobe[sample.bin], sample.cosine});
+            }
+        }
+        fitShade(knots, reflectance);
+    }
+    std::vector<WeightedValues> bins = binned(samples, reflectance);
+    const std::vector<float> lobe = smoothLobe(medians(bins), binWeights(bins));
+    std::vector<float> inAnchor, everywhere;
+    for (int bin = 0; bin < kLobeTexels; ++bin) {
+        const float thetaH = glm::degrees(thetaHOfBin(bin / kDifferenceBins));
+        if (bins[bin].size() >= kFewestInAnchor) {
+            everywhere.push_back(lobe[bin]);
+            if (thetaH >= kAnchorFrom && thetaH <= kAnchorTo) {
+                inAnchor.push_back(lobe[bin]);
+            }
+        }
+    }
+    std::vector<float>& chosen = inAnchor.empty() ? everywhere : inAnchor;
+    const float anchor = chosen.empty() ? 0.0f : quantile(chosen, 0.5);
+    for (int bin = 0; bin < kLobeTexels; ++bin) {
+        reflectance.lobe[bin] = std::exp(lobe[bin] - anchor);
+    }
+    return anchor;
+}
+
+void fitGloss(const std::vector<FitSample>& samples, float albedo, float unit, Reflectance& reflectance)
+{
+    std::vector<WeightedValues> bins(kLobeTexels);
+    for (const FitSample& sample : samples) {
+        const float matte = sample.scale * albedo * std::exp(reflectance.shadeAt(sample.cosine));
+        bins[sample.bin].push_back({std::asinh((sample.value - matte) * sample.bright / unit), sample.cosine});
+    }
+    const std::vector<float> gloss = smoothLobe(medians(bins), binWeights(bins));
+    for (int bin = 0; bin < kLobeTexels; ++bin) {
+        reflectance.lobe[bin] = std::sinh(gloss[bin]) * unit;
+    }
+}
+
+float medianAlbedo(const PixelLattice& lattice, const std::vector<BallMatch>& matches)
+{
+    std::vector<float> albedos;
+    for (size_t p = 0; p < matches.size(); ++p) {
+        albedos.push_back(matches[p].scale * lattice.bright[p]);
+    }
+    return quantile(albedos, 0.5);
+}
+
+AlbedoRange albedosOf(const PixelLattice& lattice, const std::vector<BallMatch>& matches)
+{
+    std::vector<std::pair<float, float>> byCost;
+    for (size_t p = 0; p < matches.size(); ++p) {
+        byCost.push_back({matches[p].cost, matches[p].scale * lattice.bright[p]});
+    }
+    std::sort(byCost.begin(), byCost.end());
+    std::vector<float> albedos;
+    for (size_t p = 0;
+         p < std::max<size_t>(1, static_cast<size_t>(kWellExplained * static_cast<double>(byCost.size()))); ++p) {
+        albedos.push_back(byCost[p].second);
+    }
+    return {quantile(albedos, kLowAlbedo) / kAlbedoMargin, quantile(albedos, kHighAlbedo) * kAlbedoMargin};
+}
+
+} // namespace
+
+void fitReflectance(const PixelLattice& lattice, bool additive, MatchModel& model, std::vector<BallMatch>& matches)
+{
+    const std::vector<FitSample> samples = fitSamples(lattice, model, matches);
+    if (samples.empty()) {
+        return;
+    }
+    Reflectance& reflectance = model.reflectance;
+    reflectance.additive = additive;
+    const float anchor =
+        std::exp(additive ? fitDiffuse(samples, reflectance) : fitMultiplicative(samples, reflectance));
+    for (BallMatch& match : matches) {
+        match.scale *= anchor;
+    }
+    if (additive) {
+        fitGloss(samples, anchor, kGlossUnit * medianAlbedo(lattice, matches), reflectance);
+    }
+    model.albedos = albedosOf(lattice, matches);
+}
+
+} // namespace nacre

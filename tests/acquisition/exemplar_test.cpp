@@ -1,0 +1,218 @@
+#include <cmath>
+#include <functional>
+
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+
+#include "acquisition/exemplar/exemplar_estimator.h"
+#include "acquisition/exemplar/neighbour_search.h"
+#include "acquisition/exemplar/reflectance_fit.h"
+#include "engine/files/measures.h"
+
+namespace nacre {
+
+namespace {
+
+// Lights all over the part of the sky that most rigs reach, 15 to 60 degrees from the camera.
+std::vector<Light> lightsAround(int count)
+{
+    std::vector<Light> lights;
+    for (int i = 0; i < count; ++i) {
+        const float share = (static_cast<float>(i) + 0.5f) / static_cast<float>(count), z = 0.97f - 0.47f * share,
+                    phi = 2.39996f * static_cast<float>(i), r = std::sqrt(1 - z * z);
+        lights.push_back({glm::vec3(r * std::cos(phi), r * std::sin(phi), z), glm::vec3(1)});
+    }
+    return lights;
+}
+
+using Shading = std::function<float(size_t pixel, const glm::vec3& n, const glm::vec3& l)>;
+
+// A picture of normals, and what lights of irradiance 1 show of it: shading times n.l.
+struct Scene {
+    std::vector<Light> lights;
+    std::vector<glm::vec3> normals;
+    Intensities intensities;
+};
+
+Scene photograph(int width, int height, const std::function<glm::vec3(float x, float y)>& normalAt,
+                 const Shading& shading, int lights = 36)
+{
+    Scene scene{lightsAround(lights), {}, {}};
+    std::vector<uint32_t> places;
+    for (int y = 0; y < height; ++y) {
+        for (int x = 0; x < width; ++x) {
+            const glm::vec3 normal = normalAt((2.0f * static_cast<float>(x) + 1) / static_cast<float>(width) - 1,
+                                              1 - (2.0f * static_cast<float>(y) + 1) / static_cast<float>(height));
+            if (normal.z > 0) {
+                scene.normals.push_back(normal);
+                places.push_back(static_cast<uint32_t>(y * width + x));
+            }
+        }
+    }
+    scene.intensities = makeIntensities(places.size(), scene.lights.size());
+    scene.intensities.places = places;
+    scene.intensities.width = width;
+    for (size_t p = 0; p < places.size(); ++p) {
+        for (size_t i = 0; i < scene.lights.size(); ++i) {
+            const float cosine = glm::dot(scene.normals[p], scene.lights[i].direction);
+            scene.intensities.values[p * scene.intensities.stride + i] =
+                cosine > 0 ? cosine * shading(p, scene.normals[p], scene.lights[i].direction) : 0;
+        }
+    }
+    return scene;
+}
+
+glm::vec3 sphere(float x, float y)
+{
+    const float z = 1 - x * x - y * y;
+    return z > 0.04f ? glm::vec3(x, y, std::sqrt(z)) : glm::vec3(0);
+}
+
+NormalBlock estimated(const Scene& scene, const NormalOptions& options = {})
+{
+    std::vector<Finding> findings;
+    return makeExemplarEstimator(scene.intensities, scene.lights, options, findings)(scene.intensities);
+}
+
+double meanError(const Scene& scene, const NormalBlock& block)
+{
+    double sum = 0;
+    for (size_t p = 0; p < scene.normals.size(); ++p) {
+        sum += degreesBetween(block.pixels[p].normal, scene.normals[p]);
+    }
+    return sum / static_cast<double>(scene.normals.size());
+}
+
+double consensusError(const Scene& scene)
+{
+    return meanError(scene, makeConsensusEstimator(scene.lights, {})(scene.intensities));
+}
+
+float gloss(const glm::vec3& n, const glm::vec3& l, float width)
+{
+    const float cosine = glm::dot(n, glm::normalize(l + glm::vec3(0, 0, 1)));
+    return std::exp(-(1 - cosine) / (width * width));
+}
+
+} // namespace
+
+TEST(Exemplar, BallTexelsAndNormalsAreEachOther)
+{
+    for (const glm::vec3& n :
+         {glm::vec3(0, 0, 1), glm::normalize(glm::vec3(1, 2, 3)), glm::normalize(glm::vec3(-3, 1, 0.1f))}) {
+        const glm::vec3 back = normalOfBallTexel(ballTexelOf(n, 64), 64);
+        EXPECT_LT(degreesBetween(n, back), 0.05);
+    }
+    // Equal areas: a step of a texel turns the normal as far at the rim as in the middle, to a factor of sqrt(2).
+    const double middle = degreesBetween(normalOfBallTexel({31.5f, 31.5f}, 64), normalOfBallTexel({32.5f, 31.5f}, 64));
+    const double rim = degreesBetween(normalOfBallTexel({62, 31.5f}, 64), normalOfBallTexel({63, 31.5f}, 64));
+    EXPECT_NEAR(rim / middle, std::sqrt(2.0), 0.1);
+}
+
+TEST(Exemplar, FollowsADiffuseLawThatIsNotLamberts)
+{
+    const Scene scene = photograph(
+        48, 48, sphere, [](size_t, const glm::vec3& n, const glm::vec3& l) { return std::pow(glm::dot(n, l), 0.3f); });
+    EXPECT_GT(consensusError(scene), 3);
+    EXPECT_LT(meanError(scene, estimated(scene)), 1);
+}
+
+// Paint of two albedos, six times apart, under one coat of varnish: albedo must not scale its gloss.
+TEST(Exemplar, GlossNeedNotFollowTheAlbedo)
+{
+    const Scene scene = photograph(64, 64, sphere, [](size_t p, const glm::vec3& n, const glm::vec3& l) {
+        return (p / 7 % 2 == 0 ? 0.1f : 0.6f) + 1.5f * gloss(n, l, 0.25f);
+    });
+    EXPECT_GT(consensusError(scene), 2);
+    EXPECT_LT(meanError(scene, estimated(scene)), 1);
+}
+
+// Neighbours propose and do not pull: the ridge of a roof of 90 degrees, and bumps of six pixels' period.
+TEST(Exemplar, SmoothsNeitherEdgesNorTexture)
+{
+    const auto shading = [](size_t, const glm::vec3& n, const glm::vec3& l) { return 0.5f + gloss(n, l, 0.3f); };
+    const Scene roof = photograph(
+        48, 48, [](float x, float) { return glm::normalize(glm::vec3(x < 0 ? -1 : 1, 0.2f, 1)); }, shading);
+    const NormalBlock onRoof = estimated(roof);
+    double atRidge = 0;
+    for (size_t p = 0; p < roof.normals.size(); ++p) {
+        const int x = static_cast<int>(roof.intensities.places[p]) % 48;
+        if (x == 23 || x == 24) {
+            atRidge = std::max(atRidge, degreesBetween(onRoof.pixels[p].normal, roof.normals[p]));
+        }
+    }
+    EXPECT_LT(atRidge, 1.5);
+    const Scene bumps = photograph(
+        72, 72,
+        [](float x, float y) {
+            const float turn = 36 * 2 * 3.14159265f / 6;
+            return glm::normalize(glm::vec3(0.4f * std::sin(turn * x), 0.4f * std::cos(turn * y), 1));
+        },
+        shading);
+    EXPECT_LT(meanError(bumps, estimated(bumps)), 1);
+}
+
+TEST(Exemplar, PixelsThatNobodyPlacedAreEstimatedToo)
+{
+    Scene scene = photograph(48, 48, sphere,
+                             [](size_t, const glm::vec3& n, const glm::vec3& l) { return 0.4f + gloss(n, l, 0.3f); });
+    scene.intensities.width = 0;
+    scene.intensities.places.clear();
+    EXPECT_LT(meanError(scene, estimated(scene)), 1);
+}
+
+// What a block of rows is estimated to be depends on the others through the reflectance and the start alone.
+TEST(Exemplar, BlocksOfRowsGiveWhatTheWholeGives)
+{
+    const Scene scene = photograph(
+        96, 96, sphere, [](size_t, const glm::vec3& n, const glm::vec3& l) { return 0.4f + gloss(n, l, 0.3f); });
+    std::vector<Finding> findings;
+    const NormalEstimator estimator = makeExemplarEstimator(scene.intensities, scene.lights, {}, findings);
+    const NormalBlock whole = estimator(scene.intensities);
+    std::vector<size_t> upper;
+    for (size_t p = 0; p < scene.normals.size() / 2; ++p) {
+        upper.push_back(p);
+    }
+    const NormalBlock part = estimator(selectPixels(scene.intensities, upper));
+    double sum = 0;
+    for (const size_t p : upper) {
+        sum += degreesBetween(part.pixels[p].normal, whole.pixels[p].normal);
+    }
+    EXPECT_LT(sum / static_cast<double>(upper.size()), 0.02);
+}
+
+TEST(Exemplar, FitRecoversTheReflectanceThatItWasMadeOf)
+{
+    const Scene scene = photograph(
+        64, 64, sphere, [](size_t, const glm::vec3& n, const glm::vec3& l) { return 0.5f + 0.5f * gloss(n, l, 0.3f); });
+    const BallGrid grid = makeBallGrid(64, scene.lights, 1);
+    const PixelLattice lattice = makePixelLattice(scene.intensities, 1);
+    MatchModel model;
+    model.ball = makeReflectanceBall(grid, model.reflectance, 1);
+    std::vector<BallMatch> matches;
+    for (size_t p = 0; p < lattice.pixelCount(); ++p) {
+        matches.push_back(matchAtTexel(model, lattice, p, ballTexelOf(scene.normals[p], 64), 1));
+    }
+    for (int round = 0; round < 3; ++round) {
+        fitReflectance(lattice, true, model, matches);
+        model.ball = makeReflectanceBall(grid, model.reflectance, 1);
+        for (size_t p = 0; p < lattice.pixelCount(); ++p) {
+            matches[p] = matchAtTexel(model, lattice, p, matches[p].texel, matches[p].scale);
+        }
+    }
+    EXPECT_LT(meanCost(matches), 0.05);
+    std::vector<float> predicted(scene.lights.size());
+    double worst = 0;
+    for (size_t p = 0; p < lattice.pixelCount(); ++p) {
+        if (scene.normals[p].z < 0.5f) {
+            continue;
+        }
+        predictMatch(model, matches[p], lattice.bright[p], predicted.data());
+        for (size_t i = 0; i < predicted.size(); ++i) {
+            worst = std::max<double>(worst, std::abs(predicted[i] - scene.intensities.ofPixel(p)[i]));
+        }
+    }
+    EXPECT_LT(worst, 0.06); // of 1: bins of thetaH are a few degrees wide
+}
+
+} // namespace nacre
