@@ -15,11 +15,11 @@ namespace nacre {
 // subtracted, so that noise may leave values below 0); grey photographs have three equal channels.
 struct Observations {
     size_t lightCount = 0;
-    int width = 0;                   // of the picture; 0: not known
-    int spacing = 1;                 // each pixel stands for a square of so many
     std::vector<uint32_t> pixels;    // y * width + x, ascending
     std::vector<glm::vec3> radiance; // [pixel * lightCount + light]
     std::vector<uint8_t> saturated;  // same shape: 1 where a channel was clipped in every exposure
+    int width = 0;                   // of the picture; 0: not known
+    int spacing = 1;                 // each pixel stands for a square of so many
 
     std::span<const glm::vec3> radianceOf(size_t pixel) const
     {

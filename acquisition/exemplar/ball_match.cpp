@@ -20,6 +20,8 @@ namespace {
 constexpr float kTruncation = 0.08f;
 // Scales are fitted to residuals up to here.
 constexpr float kFitLimit = 1.5f * kTruncation;
+// The middling quantile is in the light if it is at least this share of the bright level, in roots.
+constexpr float kLitShare = 0.2f;
 constexpr int kAdditiveSteps = 2;
 constexpr int kPolishSteps = 3;
 
@@ -183,7 +185,9 @@ BallMatch matchAtRow(const MatchModel& model, const PixelLattice& lattice, size_
             return match;
         }
         const float lowRoot = std::sqrt(low), highRoot = std::sqrt(high);
-        float root = std::clamp(1 / model.ball.bright[row], lowRoot, highRoot);
+        const float middling = lattice.middling[pixel], predicted = model.ball.middling[row];
+        const bool isLit = middling > kLitShare && predicted > kLitShare * model.ball.bright[row];
+        float root = std::clamp(isLit ? middling / predicted : 1 / model.ball.bright[row], lowRoot, highRoot);
         matchRoots(lattice.rootsOf(pixel), diffuse, grid.stride, lowRoot, highRoot, root, match.cost);
         match.scale = root * root;
     }

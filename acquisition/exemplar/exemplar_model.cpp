@@ -256,7 +256,7 @@ std::vector<Level> makeLevels(const Intensities& sample, int& spacing, int threa
         levels.front().lattice = thinnedLattice(levels.front().lattice, spacing, threads, parents);
     }
     while (levels.back().lattice.pixelCount() > kMostCoarsest) {
-        PixelLattice coarse = halvedLattice(levels.back().lattice, threads, levels.back().parents);
+        PixelLattice coarse = thinnedLattice(levels.back().lattice, 2, threads, levels.back().parents);
         levels.push_back({std::move(coarse), {}});
     }
     return levels;

@@ -31,7 +31,7 @@ constexpr float kJuryTruncation = 0.16f;
 constexpr double kWorstSplitCondition = 30;
 constexpr int kJuryBallSize = 64;
 constexpr int kJuryRounds = 2;
-constexpr size_t kJudgedPerTask = 256;
+constexpr size_t kJuryPerTask = 256;
 
 // Of the Lambertian methods the simplest wins a tie; the exemplars win one against them, since they know what Lambert
 // knows and highlights, too.
@@ -84,7 +84,7 @@ void measureReflectance(const Jury& jury, bool additive, int threads, MatchModel
 {
     model.ball = makeReflectanceBall(jury.keptGrid, model.reflectance, threads);
     for (int round = 0; round <= kJuryRounds; ++round) {
-        parallelFor(matches.size(), kJudgedPerTask, threads, [&](size_t first, size_t last) {
+        parallelFor(matches.size(), kJuryPerTask, threads, [&](size_t first, size_t last) {
             for (size_t p = first; p < last; ++p) {
                 matches[p] = matchAtTexel(model, jury.kept, p, matches[p].texel, matches[p].scale);
             }

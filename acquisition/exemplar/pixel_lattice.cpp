@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "engine/files/measures.h"
 #include "engine/files/parallel_for.h"
 
 namespace nacre {
@@ -20,7 +21,9 @@ void prepareRoots(PixelLattice& lattice, int threads)
     lattice.stride = given.stride;
     lattice.roots.resize(given.values.size());
     lattice.bright.resize(given.pixelCount());
+    lattice.middling.resize(given.pixelCount());
     parallelFor(given.pixelCount(), kPreparedPerTask, threads, [&](size_t first, size_t last) {
+        std::vector<float> lit;
         for (size_t p = first; p < last; ++p) {
             const float bright = std::max(brightLevel(given.ofPixel(p)), std::numeric_limits<float>::min());
             const float* values = given.padded(p);
@@ -28,6 +31,8 @@ void prepareRoots(PixelLattice& lattice, int threads)
             for (size_t i = 0; i < given.stride; ++i) {
                 lattice.roots[p * given.stride + i] = std::sqrt(std::max(values[i] / bright, 0.0f));
             }
+            lit.assign(&lattice.roots[p * given.stride], &lattice.roots[p * given.stride] + given.lightCount);
+            lattice.middling[p] = quantile(lit, kMiddling);
         }
     });
 }
@@ -103,25 +108,6 @@ PixelLattice thinnedLattice(const PixelLattice& lattice, int spacing, int thread
     thin.intensities = selectPixels(lattice.intensities, chosen);
     prepareRoots(thin, threads);
     return thin;
-}
-
-PixelLattice halvedLattice(const PixelLattice& lattice, int threads, std::vector<int>& parents)
-{
-    PixelLattice coarse = squaresOf(lattice, 2, parents);
-    coarse.intensities = makeIntensities(coarse.pixelCount(), lattice.lightCount);
-    std::vector<int> counts(coarse.pixelCount(), 0);
-    for (const int parent : parents) {
-        ++counts[parent];
-    }
-    for (size_t p = 0; p < parents.size(); ++p) {
-        const float* from = lattice.intensities.padded(p);
-        float* to = &coarse.intensities.values[parents[p] * coarse.intensities.stride];
-        for (size_t i = 0; i < lattice.lightCount; ++i) {
-            to[i] += from[i] / static_cast<float>(counts[parents[p]]);
-        }
-    }
-    prepareRoots(coarse, threads);
-    return coarse;
 }
 
 } // namespace nacre

@@ -7,6 +7,10 @@
 
 namespace nacre {
 
+// Scales are first guessed where highlights, few as they are, do not reach, and shadows, which may be many, do not
+// either.
+constexpr double kMiddling = 0.75;
+
 // Pixels that know their neighbours. Observations are held as roots g = sqrt(I / q), q the pixel's bright level.
 struct PixelLattice {
     int width = 0;
@@ -17,6 +21,7 @@ struct PixelLattice {
     std::vector<uint32_t> places; // per pixel, y * width + x
     std::vector<float> roots;     // [pixel * stride + light], padded with zeros
     std::vector<float> bright;    // per pixel, above 0
+    std::vector<float> middling;  // per pixel, a root: kMiddling's quantile
     Intensities intensities;      // as given
 
     size_t pixelCount() const { return places.size(); }
@@ -29,8 +34,5 @@ PixelLattice makePixelLattice(Intensities intensities, int threads);
 // One pixel for each square of `spacing`: of those that are there the nearest to its middle, so that highlights stay
 // as they are. `parents`: for each pixel its square's.
 PixelLattice thinnedLattice(const PixelLattice& lattice, int spacing, int threads, std::vector<int>& parents);
-
-// Means of two by two.
-PixelLattice halvedLattice(const PixelLattice& lattice, int threads, std::vector<int>& parents);
 
 } // namespace nacre

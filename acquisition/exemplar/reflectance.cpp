@@ -116,11 +116,13 @@ std::array<float, kShadeKnots> shadeOfPower(float exponent)
 
 ReflectanceBall makeReflectanceBall(const BallGrid& grid, const Reflectance& reflectance, int threads)
 {
-    ReflectanceBall ball{&grid, reflectance.additive, std::vector<float>(grid.cosines.size(), 0.0f), {}, {}};
+    ReflectanceBall ball{&grid, reflectance.additive, std::vector<float>(grid.cosines.size(), 0.0f), {}, {}, {}};
     ball.gloss.resize(reflectance.additive ? grid.cosines.size() : 0, 0.0f);
     ball.bright.resize(grid.normals.size());
+    ball.middling.resize(grid.normals.size());
     const std::vector<float> profiles = lightProfiles(grid, reflectance);
     parallelFor(grid.normals.size(), kBallRowsPerTask, threads, [&](size_t first, size_t last) {
+        std::vector<float> values;
         for (size_t row = first; row < last; ++row) {
             for (size_t i = 0; i < grid.lightCount; ++i) {
                 const size_t at = row * grid.stride + i;
@@ -138,7 +140,10 @@ ReflectanceBall makeReflectanceBall(const BallGrid& grid, const Reflectance& ref
                     ball.gloss[at] = lobe;
                 }
             }
-            ball.bright[row] = brightLevel({&ball.diffuse[row * grid.stride], grid.lightCount});
+            const std::span<const float> column(&ball.diffuse[row * grid.stride], grid.lightCount);
+            ball.bright[row] = brightLevel(column);
+            values.assign(column.begin(), column.end());
+            ball.middling[row] = quantile(values, kMiddling);
         }
     });
     return ball;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "acquisition/exemplar/ball_grid.h"
+#include "acquisition/exemplar/pixel_lattice.h"
 #include "engine/brdf/brdf_models.h"
 
 namespace nacre {
@@ -37,9 +38,10 @@ struct ReflectanceBall {
     const BallGrid* grid = nullptr;
     bool additive = false;
     // Multiplicative: square roots of what albedo 1 shows. Additive: the diffuse part of albedo 1.
-    std::vector<float> diffuse; // [row * stride + light]
-    std::vector<float> gloss;   // additive alone
-    std::vector<float> bright;  // per row, the bright level of `diffuse`
+    std::vector<float> diffuse;  // [row * stride + light]
+    std::vector<float> gloss;    // additive alone
+    std::vector<float> bright;   // per row, the bright level of `diffuse`
+    std::vector<float> middling; // per row, kMiddling's quantile of it
 };
 
 ReflectanceBall makeReflectanceBall(const BallGrid& grid, const Reflectance& reflectance, int threads);

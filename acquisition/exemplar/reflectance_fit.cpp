@@ -21,7 +21,7 @@ constexpr size_t kMostFitted = 60000; // observations
 // Grazing light: f = I / (n.l) multiplies errors of the normal.
 constexpr float kLeastFitCosine = 0.15f;
 // Observations below this share of what is predicted are in shadow, and the worst pixels have no say.
-constexpr float kLitShare = 0.5f;
+constexpr float kLitFitShare = 0.5f;
 constexpr double kPixelsWithSay = 0.8;
 // Additive gloss is measured against what is diffuse, which counts from here on.
 constexpr float kDiffuseThetaH = 40; // degrees
@@ -91,7 +91,7 @@ std::vector<FitSample> fitSamples(const PixelLattice& lattice, const MatchModel&
         for (size_t i = 0; i < lattice.lightCount; ++i) {
             const float cosine = glm::dot(normal, grid.directions[i]), root = lattice.rootsOf(p)[i],
                         observed = root * root;
-            if (cosine < kLeastFitCosine || observed * lattice.bright[p] < kLitShare * predicted[i]) {
+            if (cosine < kLeastFitCosine || observed * lattice.bright[p] < kLitFitShare * predicted[i]) {
                 continue;
             }
             const int half = std::min(static_cast<int>(halfBinOf(glm::dot(normal, grid.halves[i]))), kHalfBins - 1),
