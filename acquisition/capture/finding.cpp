@@ -8,7 +8,7 @@ namespace nacre {
 namespace {
 
 // In the order of FindingCode.
-constexpr std::array<std::string_view, 22> kNames = {"transfer-curve-left",
+constexpr std::array<std::string_view, 21> kNames = {"transfer-curve-left",
                                                      "transfer-curve-taken",
                                                      "lights-near",
                                                      "lights-ill-placed",
@@ -28,9 +28,8 @@ constexpr std::array<std::string_view, 22> kNames = {"transfer-curve-left",
                                                      "intensities-estimated",
                                                      "intensities-corrected",
                                                      "method-chosen",
-                                                     "reflectance-chosen",
-                                                     "reflectance-measured"};
-static_assert(kNames.size() == static_cast<size_t>(FindingCode::reflectanceMeasured) + 1);
+                                                     "reflectance-chosen"};
+static_assert(kNames.size() == static_cast<size_t>(FindingCode::reflectanceChosen) + 1);
 
 } // namespace
 

@@ -30,7 +30,6 @@ enum class FindingCode {
     intensitiesCorrected,
     methodChosen,
     reflectanceChosen,
-    reflectanceMeasured,
 };
 
 struct Finding {

@@ -1,6 +1,7 @@
 #include "acquisition/exemplar/exemplar_model.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -36,6 +37,11 @@ constexpr float kRankMargin = 1.5f;
 const std::vector<int> kWideSteps{16, 8, 4, 2};
 const std::vector<int> kNarrowSteps{4, 2, 1};
 const std::vector<int> kFineSteps{16, 8, 4, 2, 1};
+
+// A pixel's own square of the lattice and those around it.
+constexpr std::array<glm::ivec2, 9> kSquares{glm::ivec2(0, 0), {1, 0},  {-1, 0}, {0, 1},  {0, -1},
+                                             {1, 1},           {-1, 1}, {1, -1}, {-1, -1}};
+constexpr size_t kMatchedPerTask = 256;
 
 struct Hypothesis {
     std::string name;
@@ -299,24 +305,37 @@ ExemplarModel makeExemplarModel(const Intensities& sample, const std::vector<Lig
     return model;
 }
 
+namespace {
+
+// The lattice's pixel for a place in the picture's squares; -1 where there is none.
+int latticePixel(const PixelLattice& lattice, int x, int y)
+{
+    const bool isInside = x >= 0 && y >= 0 && x < lattice.width && y < lattice.height;
+    return isInside ? lattice.index[static_cast<size_t>(y) * lattice.width + x] : -1;
+}
+
+} // namespace
+
 std::vector<BallMatch> matchPixels(const ExemplarModel& model, const PixelLattice& pixels, int threads)
 {
     const PixelLattice& lattice = model.lattice;
-    std::vector<BallMatch> matches;
-    for (size_t p = 0; p < pixels.pixelCount(); ++p) {
-        const int x = static_cast<int>(pixels.places[p]) % pixels.width / model.spacing,
-                  y = static_cast<int>(pixels.places[p]) / pixels.width / model.spacing;
-        const bool isInside = x < lattice.width && y < lattice.height;
-        const int near = isInside ? lattice.index[static_cast<size_t>(y) * lattice.width + x] : -1;
-        if (near < 0) {
-            matches.push_back({ballTexelOf({0, 0, 1}, model.grid->size), 1, 2, -1});
-        } else {
-            matches.push_back({model.matches[near].texel,
-                               model.matches[near].scale * lattice.bright[near] / pixels.bright[p], 2, -1});
+    std::vector<BallMatch> matches(pixels.pixelCount());
+    parallelFor(matches.size(), kMatchedPerTask, threads, [&](size_t first, size_t last) {
+        std::vector<BallMatch> candidates;
+        for (size_t p = first; p < last; ++p) {
+            const int x = static_cast<int>(pixels.places[p]) % pixels.width / model.spacing,
+                      y = static_cast<int>(pixels.places[p]) / pixels.width / model.spacing;
+            candidates.assign(1, {ballTexelOf({0, 0, 1}, model.grid->size), 1, 2, -1});
+            for (const glm::ivec2& square : kSquares) {
+                const int near = latticePixel(lattice, x + square.x, y + square.y);
+                if (near >= 0) {
+                    candidates.push_back(model.matches[near]);
+                    candidates.back().scale *= lattice.bright[near] / pixels.bright[p];
+                }
+            }
+            matches[p] = bestMatch(model.match, pixels, p, candidates, kFineSteps);
         }
-    }
-    sweepMatches(model.match, pixels, kFineSteps, {}, threads, matches);
-    polishMatches(model.match, pixels, threads, matches);
+    });
     return matches;
 }
 

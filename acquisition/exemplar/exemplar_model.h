@@ -23,7 +23,8 @@ struct ExemplarModel {
 ExemplarModel makeExemplarModel(const Intensities& sample, const std::vector<Light>& lights,
                                 const NormalOptions& options, std::vector<Finding>& findings);
 
-// Matches of any pixels of the object, which start from those of the lattice.
+// Matches of any pixels of the object: candidates are those of the lattice around a pixel and steps from the best of
+// them. Every pixel by itself, so that it does not matter which ones are asked for at once.
 std::vector<BallMatch> matchPixels(const ExemplarModel& model, const PixelLattice& pixels, int threads);
 
 } // namespace nacre

@@ -37,6 +37,16 @@ struct PixelSearch {
         }
     }
 
+    void step(const std::vector<int>& steps)
+    {
+        for (const int step : steps) {
+            const BallMatch from = best;
+            for (const glm::ivec2& beside : kBeside) {
+                consider(glm::round(from.texel + static_cast<float>(step) * glm::vec2(beside)), from.scale);
+            }
+        }
+    }
+
     void consider(const glm::vec2& texel, float scale)
     {
         const int row = model.ball.grid->rowAt(texel);
@@ -69,12 +79,7 @@ void searchPixel(PixelSearch& search, const std::vector<BallMatch>& matches, con
     if (!extra.empty()) {
         search.consider(extra[search.pixel], search.best.scale);
     }
-    for (const int step : steps) {
-        const BallMatch from = search.best;
-        for (const glm::ivec2& beside : kBeside) {
-            search.consider(glm::round(from.texel + static_cast<float>(step) * glm::vec2(beside)), from.scale);
-        }
-    }
+    search.step(steps);
 }
 
 } // namespace
@@ -96,6 +101,18 @@ void sweepMatches(const MatchModel& model, const PixelLattice& lattice, const st
             }
         });
     }
+}
+
+BallMatch bestMatch(const MatchModel& model, const PixelLattice& lattice, size_t pixel,
+                    std::span<const BallMatch> candidates, const std::vector<int>& steps)
+{
+    PixelSearch search{model, lattice, pixel, {}};
+    search.start(candidates.front());
+    for (const BallMatch& candidate : candidates.subspan(1)) {
+        search.consider(candidate.texel, candidate.scale);
+    }
+    search.step(steps);
+    return polishedMatch(model, lattice, pixel, search.best);
 }
 
 void polishMatches(const MatchModel& model, const PixelLattice& lattice, int threads, std::vector<BallMatch>& matches)

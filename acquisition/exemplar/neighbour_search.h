@@ -16,6 +16,10 @@ namespace nacre {
 void sweepMatches(const MatchModel& model, const PixelLattice& lattice, const std::vector<int>& steps,
                   std::span<const glm::vec2> extra, int threads, std::vector<BallMatch>& matches);
 
+// The best of the candidates and of steps from it, polished.
+BallMatch bestMatch(const MatchModel& model, const PixelLattice& lattice, size_t pixel,
+                    std::span<const BallMatch> candidates, const std::vector<int>& steps);
+
 void polishMatches(const MatchModel& model, const PixelLattice& lattice, int threads, std::vector<BallMatch>& matches);
 
 // After the reflectance has changed: places and scales stay, costs are not known.
