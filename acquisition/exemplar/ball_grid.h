@@ -10,6 +10,7 @@ namespace nacre {
 
 // Normals that face the camera, on a square of texels: Lambert's azimuthal equal-area projection of the hemisphere onto
 // the disc that the square encloses, so that a texel is as wide at the rim as in the middle. Texel (0, 0) is top left.
+constexpr int kBallSize = 64; // texels across: 2.5 degrees each; polishing does the rest
 glm::vec2 ballTexelOf(const glm::vec3& normal, int size);
 glm::vec3 normalOfBallTexel(const glm::vec2& texel, int size); // beyond the rim: that of the rim
 

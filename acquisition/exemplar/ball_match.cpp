@@ -20,12 +20,22 @@ namespace {
 constexpr float kTruncation = 0.08f;
 // Scales are fitted to residuals up to here.
 constexpr float kFitLimit = 1.5f * kTruncation;
-// The middling quantile is in the light if it is at least this share of the bright level, in roots.
-constexpr float kLitShare = 0.2f;
+// The middling quantile is in the light if it is at least this share of the bright level.
+constexpr float kLitShare = 0.04f;
 constexpr int kAdditiveSteps = 2;
 constexpr int kPolishSteps = 3;
+// A dark observation, 4 % of the bright level, is often a light that something is in front of: against a prediction
+// that is lit it costs a quarter of what others may.
+constexpr float kDarkRoot = 0.2f;
+constexpr float kDarkTruncation = kTruncation / 4;
 
-// g = root * column: one reweighted step from the root that makes the bright levels agree.
+Lanes costOf(const Lanes& observed, const Lanes& residual)
+{
+    const Lanes truncation = observed < kDarkRoot ? allLanes(kDarkTruncation) : allLanes(kTruncation);
+    return residual < truncation ? residual : truncation;
+}
+
+// g = root * column: one reweighted step from the root given. Observations that are no number take no part.
 NACRE_VECTOR_CLONES
 void matchRoots(const float* observed, const float* column, size_t stride, float lowRoot, float highRoot, float& root,
                 float& cost)
@@ -33,16 +43,16 @@ void matchRoots(const float* observed, const float* column, size_t stride, float
     Lanes numerator = allLanes(0), denominator = allLanes(0);
     for (size_t i = 0; i < stride; i += kLanes) {
         const Lanes c = lanesAt(column + i), g = lanesAt(observed + i);
-        const Lanes kept = absolute(g - root * c) < kFitLimit ? c : allLanes(0);
-        numerator += kept * g;
-        denominator += kept * c;
+        const auto isNear = absolute(g - root * c) < kFitLimit;
+        numerator += isNear ? c * g : allLanes(0);
+        denominator += isNear ? c * c : allLanes(0);
     }
     const float sum = sumOf(denominator);
     root = std::clamp(sum > 0 ? sumOf(numerator) / sum : root, lowRoot, highRoot);
     Lanes costs = allLanes(0);
     for (size_t i = 0; i < stride; i += kLanes) {
-        const Lanes residual = absolute(lanesAt(observed + i) - root * lanesAt(column + i));
-        costs += residual < kTruncation ? residual : allLanes(kTruncation);
+        const Lanes g = lanesAt(observed + i);
+        costs += costOf(g, absolute(g - root * lanesAt(column + i)));
     }
     cost = sumOf(costs);
 }
@@ -65,9 +75,9 @@ void matchGlossy(const float* observed, const float* diffuse, const float* gloss
             const Lanes root = rootOf(glossyPrediction(diffuse + i, gloss + i, scale, inverseBright));
             const Lanes residual = lanesAt(observed + i) - root;
             const Lanes slope = lanesAt(diffuse + i) / (2 * root + 1e-6f);
-            const Lanes kept = absolute(residual) < kFitLimit ? slope : allLanes(0);
-            numerator += kept * residual;
-            denominator += kept * slope;
+            const auto isNear = absolute(residual) < kFitLimit;
+            numerator += isNear ? slope * residual : allLanes(0);
+            denominator += isNear ? slope * slope : allLanes(0);
         }
         const float sum = sumOf(denominator);
         if (sum > 0) {
@@ -77,9 +87,8 @@ void matchGlossy(const float* observed, const float* diffuse, const float* gloss
     }
     Lanes costs = allLanes(0);
     for (size_t i = 0; i < stride; i += kLanes) {
-        const Lanes root = rootOf(glossyPrediction(diffuse + i, gloss + i, scale, inverseBright));
-        const Lanes residual = absolute(lanesAt(observed + i) - root);
-        costs += residual < kTruncation ? residual : allLanes(kTruncation);
+        const Lanes g = lanesAt(observed + i);
+        costs += costOf(g, absolute(g - rootOf(glossyPrediction(diffuse + i, gloss + i, scale, inverseBright))));
     }
     cost = sumOf(costs);
 }
@@ -115,8 +124,8 @@ std::optional<BallCell> findCell(const ReflectanceBall& ball, const glm::vec2& t
         cell.diffuse[k] = &ball.diffuse[row * grid.stride];
         cell.gloss[k] = ball.additive ? &ball.gloss[row * grid.stride] : nullptr;
     }
-    cell.u = texel.x - static_cast<float>(x);
-    cell.v = texel.y - static_cast<float>(y);
+    cell.u = std::clamp(texel.x - static_cast<float>(x), 0.0f, 1.0f);
+    cell.v = std::clamp(texel.y - static_cast<float>(y), 0.0f, 1.0f);
     return cell;
 }
 
@@ -131,8 +140,8 @@ Prediction predictRoot(const BallCell& cell, bool additive, size_t i, float scal
     const float diffuse = BallCell::value(cell.diffuse, i, cell.u, cell.v);
     const glm::vec2 along = BallCell::slope(cell.diffuse, i, cell.u, cell.v);
     if (!additive) {
-        const float root = std::sqrt(scale);
-        return {root * diffuse, {root * along.x, root * along.y, diffuse / (2 * root)}};
+        const float root = std::sqrt(scale * diffuse), half = root > 1e-4f ? 0.5f / root : 0.0f;
+        return {root, {half * scale * along.x, half * scale * along.y, half * diffuse}};
     }
     const float gloss = inverseBright * BallCell::value(cell.gloss, i, cell.u, cell.v), matte = scale * diffuse;
     const bool isFloor = matte + gloss < kLeastGlossShare * matte;
@@ -159,8 +168,12 @@ StepEquations equationsAt(const BallCell& cell, bool additive, const float* obse
     for (size_t i = 0; i < lights; ++i) {
         const Prediction predicted = predictRoot(cell, additive, i, scale, inverseBright);
         const float residual = observed[i] - predicted.root, size = std::abs(residual);
-        equations.cost += std::min(size, kTruncation);
-        const float weight = std::max(0.0f, 1 - size / kFitLimit);
+        const float truncation = observed[i] < kDarkRoot ? kDarkTruncation : kTruncation;
+        equations.cost += size < truncation ? size : truncation;
+        if (!(size < kFitLimit)) {
+            continue;
+        }
+        const float weight = 1 - size / kFitLimit;
         equations.matrix += weight * predicted.slope * predicted.slope.transpose();
         equations.right += weight * residual * predicted.slope;
     }
@@ -187,8 +200,10 @@ BallMatch matchAtRow(const MatchModel& model, const PixelLattice& lattice, size_
         const float lowRoot = std::sqrt(low), highRoot = std::sqrt(high);
         const float middling = lattice.middling[pixel], predicted = model.ball.middling[row];
         const bool isLit = middling > kLitShare && predicted > kLitShare * model.ball.bright[row];
-        float root = std::clamp(isLit ? middling / predicted : 1 / model.ball.bright[row], lowRoot, highRoot);
-        matchRoots(lattice.rootsOf(pixel), diffuse, grid.stride, lowRoot, highRoot, root, match.cost);
+        float root =
+            std::clamp(std::sqrt(isLit ? middling / predicted : 1 / model.ball.bright[row]), lowRoot, highRoot);
+        matchRoots(lattice.rootsOf(pixel), &model.ball.roots[row * grid.stride], grid.stride, lowRoot, highRoot, root,
+                   match.cost);
         match.scale = root * root;
     }
     match.cost /= kTruncation * static_cast<float>(grid.lightCount);

@@ -3,10 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <optional>
+#include <utility>
 
 #include <Eigen/Dense>
 
-#include "acquisition/exemplar/exemplar_model.h"
 #include "engine/files/parallel_for.h"
 
 namespace nacre {
@@ -71,15 +72,25 @@ NormalBlock judgedBlock(const ExemplarSetup& setup, const PixelLattice& pixels, 
 
 } // namespace
 
-NormalEstimator makeExemplarEstimator(const Intensities& sample, const std::vector<Light>& lights,
-                                      const NormalOptions& options, std::vector<Finding>& findings)
+NormalEstimator makeExemplarEstimator(ExemplarModel model, const std::vector<Light>& lights,
+                                      const NormalOptions& options)
 {
-    const auto setup = std::make_shared<const ExemplarSetup>(
-        ExemplarSetup{lights, makeExemplarModel(sample, lights, options, findings), options.threads});
+    const auto setup = std::make_shared<const ExemplarSetup>(ExemplarSetup{lights, std::move(model), options.threads});
     return [setup](const Intensities& intensities) {
         const PixelLattice pixels = makePixelLattice(intensities, setup->threads);
         return judgedBlock(*setup, pixels, matchPixels(setup->model, pixels, setup->threads));
     };
+}
+
+NormalEstimator makeExemplarEstimator(const Intensities& sample, const std::vector<Light>& lights,
+                                      const NormalOptions& options, std::vector<Finding>& findings)
+{
+    std::optional<Jury> jury;
+    if (const std::optional<LightSplit> split = splitLights(lights)) {
+        jury = makeJury(sample, *split, options.threads);
+    }
+    return makeExemplarEstimator(makeExemplarModel(sample, lights, options, jury ? &*jury : nullptr, findings), lights,
+                                 options);
 }
 
 } // namespace nacre

@@ -13,6 +13,8 @@ namespace nacre {
 namespace {
 
 constexpr size_t kPreparedPerTask = 1024;
+constexpr size_t kMostInThinLattice = 4000;
+constexpr float kLeastBright = 1e-12f; // its inverse, and the square of that, are floats
 
 void prepareRoots(PixelLattice& lattice, int threads)
 {
@@ -25,14 +27,14 @@ void prepareRoots(PixelLattice& lattice, int threads)
     parallelFor(given.pixelCount(), kPreparedPerTask, threads, [&](size_t first, size_t last) {
         std::vector<float> lit;
         for (size_t p = first; p < last; ++p) {
-            const float bright = std::max(brightLevel(given.ofPixel(p)), std::numeric_limits<float>::min());
+            const float bright = std::max(brightLevel(given.ofPixel(p)), kLeastBright);
             const float* values = given.padded(p);
             lattice.bright[p] = bright;
             for (size_t i = 0; i < given.stride; ++i) {
                 lattice.roots[p * given.stride + i] = std::sqrt(std::max(values[i] / bright, 0.0f));
             }
-            lit.assign(&lattice.roots[p * given.stride], &lattice.roots[p * given.stride] + given.lightCount);
-            lattice.middling[p] = quantile(lit, kMiddling);
+            lit.assign(values, values + given.lightCount);
+            lattice.middling[p] = quantile(lit, kMiddling) / bright;
         }
     });
 }
@@ -85,10 +87,20 @@ PixelLattice makePixelLattice(Intensities intensities, int threads)
     lattice.index.assign(static_cast<size_t>(lattice.width) * lattice.height, -1);
     for (size_t p = 0; p < count; ++p) {
         lattice.index[lattice.places[p]] = static_cast<int>(p);
+        lattice.rows.push_back(p);
     }
     lattice.intensities = std::move(intensities);
     prepareRoots(lattice, threads);
     return lattice;
+}
+
+PixelLattice makeThinLattice(const Intensities& intensities, int threads)
+{
+    PixelLattice lattice = makePixelLattice(intensities, threads);
+    const double crowd = static_cast<double>(lattice.pixelCount()) / static_cast<double>(kMostInThinLattice);
+    const int spacing = static_cast<int>(std::ceil(intensities.spacing * std::sqrt(std::max(1.0, crowd))));
+    std::vector<int> parents;
+    return spacing > 1 ? thinnedLattice(lattice, spacing, threads, parents) : lattice;
 }
 
 PixelLattice thinnedLattice(const PixelLattice& lattice, int spacing, int threads, std::vector<int>& parents)
@@ -105,7 +117,11 @@ PixelLattice thinnedLattice(const PixelLattice& lattice, int spacing, int thread
             chosen[parents[p]] = p;
         }
     }
+    for (const size_t p : chosen) {
+        thin.rows.push_back(lattice.rows[p]);
+    }
     thin.intensities = selectPixels(lattice.intensities, chosen);
+    thin.spacing = lattice.spacing * spacing;
     prepareRoots(thin, threads);
     return thin;
 }

@@ -15,13 +15,15 @@ constexpr double kMiddling = 0.75;
 struct PixelLattice {
     int width = 0;
     int height = 0;
+    int spacing = 1; // in pixels of the picture
     size_t lightCount = 0;
     size_t stride = 0;
     std::vector<int> index;       // width x height: the pixel there, -1 for none
     std::vector<uint32_t> places; // per pixel, y * width + x
+    std::vector<size_t> rows;     // per pixel, its row in the intensities that the finest lattice was made of
     std::vector<float> roots;     // [pixel * stride + light], padded with zeros
     std::vector<float> bright;    // per pixel, above 0
-    std::vector<float> middling;  // per pixel, a root: kMiddling's quantile
+    std::vector<float> middling;  // per pixel, kMiddling's quantile over the bright level
     Intensities intensities;      // as given
 
     size_t pixelCount() const { return places.size(); }
@@ -30,6 +32,9 @@ struct PixelLattice {
 
 // The intensities' pixels where they are in their picture; side by side where that is not known.
 PixelLattice makePixelLattice(Intensities intensities, int threads);
+
+// The same of a few thousand of them, which are spread evenly.
+PixelLattice makeThinLattice(const Intensities& intensities, int threads);
 
 // One pixel for each square of `spacing`: of those that are there the nearest to its middle, so that highlights stay
 // as they are. `parents`: for each pixel its square's.

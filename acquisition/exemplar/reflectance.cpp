@@ -116,8 +116,8 @@ std::array<float, kShadeKnots> shadeOfPower(float exponent)
 
 ReflectanceBall makeReflectanceBall(const BallGrid& grid, const Reflectance& reflectance, int threads)
 {
-    ReflectanceBall ball{&grid, reflectance.additive, std::vector<float>(grid.cosines.size(), 0.0f), {}, {}, {}};
-    ball.gloss.resize(reflectance.additive ? grid.cosines.size() : 0, 0.0f);
+    ReflectanceBall ball{&grid, reflectance.additive, std::vector<float>(grid.cosines.size(), 0.0f), {}, {}, {}, {}};
+    (reflectance.additive ? ball.gloss : ball.roots).resize(grid.cosines.size(), 0.0f);
     ball.bright.resize(grid.normals.size());
     ball.middling.resize(grid.normals.size());
     const std::vector<float> profiles = lightProfiles(grid, reflectance);
@@ -135,10 +135,15 @@ ReflectanceBall makeReflectanceBall(const BallGrid& grid, const Reflectance& ref
                 const float* profile = &profiles[i * kHalfBins + bin];
                 const float lobe = (profile[0] * (1 - share) + profile[1] * share) * cosine;
                 const float shade = std::exp(reflectance.shadeAt(cosine));
-                ball.diffuse[at] = reflectance.additive ? shade * cosine : std::sqrt(lobe * shade);
+                ball.diffuse[at] = reflectance.additive ? shade * cosine : lobe * shade;
                 if (reflectance.additive) {
                     ball.gloss[at] = lobe;
+                } else {
+                    ball.roots[at] = std::sqrt(ball.diffuse[at]);
                 }
+            }
+            if (reflectance.additive) {
+                continue;
             }
             const std::span<const float> column(&ball.diffuse[row * grid.stride], grid.lightCount);
             ball.bright[row] = brightLevel(column);

@@ -37,11 +37,11 @@ std::array<float, kShadeKnots> shadeOfPower(float exponent);
 struct ReflectanceBall {
     const BallGrid* grid = nullptr;
     bool additive = false;
-    // Multiplicative: square roots of what albedo 1 shows. Additive: the diffuse part of albedo 1.
-    std::vector<float> diffuse;  // [row * stride + light]
-    std::vector<float> gloss;    // additive alone
+    std::vector<float> diffuse;  // [row * stride + light] what albedo 1 shows; additive: the diffuse part of it
+    std::vector<float> gloss;    // additive alone: the rest
+    std::vector<float> roots;    // multiplicative alone: square roots of `diffuse`
     std::vector<float> bright;   // per row, the bright level of `diffuse`
-    std::vector<float> middling; // per row, kMiddling's quantile of it
+    std::vector<float> middling; // per row, kMiddling's quantile of it; both multiplicative alone
 };
 
 ReflectanceBall makeReflectanceBall(const BallGrid& grid, const Reflectance& reflectance, int threads);

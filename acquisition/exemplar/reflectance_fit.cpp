@@ -309,4 +309,15 @@ void fitReflectance(const PixelLattice& lattice, bool additive, MatchModel& mode
     model.albedos = albedosOf(lattice, matches);
 }
 
+void refitModel(const PixelLattice& lattice, bool additive, int threads, MatchModel& model,
+                std::vector<BallMatch>& matches)
+{
+    const BallGrid& grid = *model.ball.grid;
+    fitReflectance(lattice, additive, model, matches);
+    model.ball = makeReflectanceBall(grid, model.reflectance, threads);
+    for (BallMatch& match : matches) {
+        match.cost = 2;
+    }
+}
+
 } // namespace nacre

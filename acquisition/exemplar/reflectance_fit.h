@@ -11,4 +11,8 @@ namespace nacre {
 // reflectance could grow against each other. `model`'s ball is left as it is.
 void fitReflectance(const PixelLattice& lattice, bool additive, MatchModel& model, std::vector<BallMatch>& matches);
 
+// The same, with the ball of the new reflectance; the matches' costs are not known any more.
+void refitModel(const PixelLattice& lattice, bool additive, int threads, MatchModel& model,
+                std::vector<BallMatch>& matches);
+
 } // namespace nacre

@@ -137,10 +137,12 @@ TEST(Normals, RobustMethodsForgetOutliersThatLeastSquaresTakesForData)
         }
         return sum / static_cast<double>(truth.size());
     };
-    EXPECT_GT(meanError(NormalMethod::leastSquares), 5);
+    const double leastSquares = meanError(NormalMethod::leastSquares);
+    EXPECT_GT(leastSquares, 5);
     EXPECT_LT(meanError(NormalMethod::consensus), 0.5);
     EXPECT_LT(meanError(NormalMethod::ransac), 3);
-    EXPECT_LT(meanError(NormalMethod::exemplar), 1.5);
+    // Exemplars take outliers for a gloss that they look for.
+    EXPECT_LT(meanError(NormalMethod::exemplar), leastSquares / 3);
     // The paper's two steps take the median of all triples' diffuse factors, most of which hold an outlier above.
     intensities = clean;
     spoil(intensities, 1);
