@@ -65,13 +65,7 @@ ChosenMethod chooseMethod(const CaptureSample& sample, const CheckedSample& chec
 
 NormalBlock estimateBlock(const NormalEstimator& estimator, const Observations& block, const std::vector<Light>& lights)
 {
-    NormalBlock normals = estimator(intensitiesOf(block, lights));
-    for (size_t i = 0; i < block.saturated.size(); ++i) {
-        if (block.saturated[i]) {
-            normals.verdicts[i] = Verdict::saturated;
-        }
-    }
-    return normals;
+    return estimator(intensitiesOf(block, lights));
 }
 
 NormalBlock estimateBlock(const ChosenMethod& chosen, const Segmentation& materials, const Observations& block,

@@ -43,7 +43,7 @@ double lambertianMisfit(const Observations& sample, const std::vector<Light>& li
         const float level = brightLevel(observed);
         int litCount = 0;
         for (size_t i = 0; i < lights.size(); ++i) {
-            const bool counts = observed[i] > kLitShare * level && !sample.saturatedOf(p)[i];
+            const bool counts = observed[i] > kLitShare * level; // not so if clipped
             lit[i] = counts ? 1.0f : 0.0f;
             litCount += counts;
         }
@@ -53,10 +53,12 @@ double lambertianMisfit(const Observations& sample, const std::vector<Light>& li
         }
         solver.predict(pixel, predicted);
         for (size_t i = 0; i < lights.size(); ++i) {
-            const double miss = observed[i] - predicted[i];
-            squares += lit[i] * miss * miss;
-            sum += lit[i] * observed[i];
-            count += lit[i];
+            if (lit[i] > 0) {
+                const double miss = observed[i] - predicted[i];
+                squares += miss * miss;
+                sum += observed[i];
+                ++count;
+            }
         }
     }
     return count > 0 ? std::sqrt(squares / count) / (sum / count) : std::numeric_limits<double>::quiet_NaN();

@@ -77,12 +77,15 @@ std::vector<float> heldOutErrors(const Jury& jury, MatchModel model, const Pixel
             const float bright = lattice.bright[p];
             predictMatch(model, matches[p], bright, predicted.data());
             const std::span<const float> seen = jury.heldOut.ofPixel(lattice.rows[p]);
-            float sum = 0;
+            float sum = 0, count = 0;
             for (size_t i = 0; i < predicted.size(); ++i) {
-                const float observed = std::sqrt(std::max(seen[i] / bright, 0.0f));
-                sum += std::min(std::abs(observed - std::sqrt(predicted[i] / bright)) / kJuryTruncation, 1.0f);
+                if (!isClipped(seen[i])) {
+                    const float observed = std::sqrt(std::max(seen[i] / bright, 0.0f));
+                    sum += std::min(std::abs(observed - std::sqrt(predicted[i] / bright)) / kJuryTruncation, 1.0f);
+                    ++count;
+                }
             }
-            errors[p] = sum / static_cast<float>(predicted.size());
+            errors[p] = count > 0 ? sum / count : 0;
         }
     });
     return errors;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <utility>
 
@@ -33,8 +34,10 @@ void prepareRoots(PixelLattice& lattice, int threads)
             for (size_t i = 0; i < given.stride; ++i) {
                 lattice.roots[p * given.stride + i] = std::sqrt(std::max(values[i] / bright, 0.0f));
             }
-            lit.assign(values, values + given.lightCount);
-            lattice.middling[p] = quantile(lit, kMiddling) / bright;
+            lit.clear();
+            std::copy_if(values, values + given.lightCount, std::back_inserter(lit),
+                         [](float v) { return !isClipped(v); });
+            lattice.middling[p] = lit.empty() ? 0.0f : quantile(lit, kMiddling) / bright;
         }
     });
 }

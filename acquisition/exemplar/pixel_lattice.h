@@ -21,7 +21,7 @@ struct PixelLattice {
     std::vector<int> index;       // width x height: the pixel there, -1 for none
     std::vector<uint32_t> places; // per pixel, y * width + x
     std::vector<size_t> rows;     // per pixel, its row in the intensities that the finest lattice was made of
-    std::vector<float> roots;     // [pixel * stride + light], padded with zeros
+    std::vector<float> roots;     // [pixel * stride + light], padded with zeros; no number where clipped
     std::vector<float> bright;    // per pixel, above 0
     std::vector<float> middling;  // per pixel, kMiddling's quantile over the bright level
     Intensities intensities;      // as given

@@ -1,6 +1,7 @@
 #include "acquisition/normals/intensities.h"
 
 #include <algorithm>
+#include <iterator>
 
 #include "engine/files/measures.h"
 
@@ -23,8 +24,10 @@ Intensities intensitiesOf(const Observations& block, const std::vector<Light>& l
     result.spacing = block.spacing;
     for (size_t p = 0; p < block.pixels.size(); ++p) {
         const auto radiance = block.radianceOf(p);
+        const auto saturated = block.saturatedOf(p);
         for (size_t i = 0; i < lights.size(); ++i) {
-            result.values[p * result.stride + i] = greyOf(radiance[i] / lights[i].irradiance);
+            result.values[p * result.stride + i] =
+                saturated[i] ? kClipped : greyOf(radiance[i] / lights[i].irradiance);
         }
     }
     return result;
@@ -33,8 +36,9 @@ Intensities intensitiesOf(const Observations& block, const std::vector<Light>& l
 float brightLevel(std::span<const float> observed)
 {
     thread_local std::vector<float> values;
-    values.assign(observed.begin(), observed.end());
-    return quantile(values, 0.9);
+    values.clear();
+    std::copy_if(observed.begin(), observed.end(), std::back_inserter(values), [](float v) { return !isClipped(v); });
+    return values.empty() ? 0.0f : quantile(values, 0.9);
 }
 
 Intensities selectLights(const Intensities& intensities, const std::vector<size_t>& lights)

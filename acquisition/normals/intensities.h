@@ -1,5 +1,7 @@
 #pragma once
+#include <cmath>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -11,8 +13,15 @@
 
 namespace nacre {
 
-// Grey radiance over irradiance per pixel and light: what a light of irradiance 1 would show. Rows are padded with
-// zeros to a multiple of eight.
+// What the sensor clipped is known to be bright and no more: no estimator looks at it.
+constexpr float kClipped = std::numeric_limits<float>::quiet_NaN();
+inline bool isClipped(float intensity)
+{
+    return std::isnan(intensity);
+}
+
+// Grey radiance over irradiance per pixel and light: what a light of irradiance 1 would show, or kClipped. Rows are
+// padded with zeros to a multiple of eight.
 struct Intensities {
     size_t lightCount = 0;
     size_t stride = 0;
@@ -30,7 +39,8 @@ struct Intensities {
 Intensities makeIntensities(size_t pixels, size_t lightCount);
 Intensities intensitiesOf(const Observations& block, const std::vector<Light>& lights);
 
-// The 90th percentile of a pixel's observations: its own scale, which a few highlights do not move.
+// The 90th percentile of a pixel's observations that are not clipped: its own scale, which a few highlights do not
+// move. 0 where there are none.
 float brightLevel(std::span<const float> observed);
 
 // The columns of the lights that are named, for leaving others out.

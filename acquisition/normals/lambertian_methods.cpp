@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include <glm/geometric.hpp>
 
@@ -40,7 +41,11 @@ void keepByThreshold(std::span<const float> observed, const NormalOptions& optio
         keepBetween(observed, options.lowThreshold, options.highThreshold, weights);
         return;
     }
-    std::vector<float> sorted(observed.begin(), observed.end());
+    std::vector<float> sorted;
+    std::copy_if(observed.begin(), observed.end(), std::back_inserter(sorted), [](float v) { return !isClipped(v); });
+    if (sorted.empty()) {
+        return;
+    }
     std::sort(sorted.begin(), sorted.end());
     const size_t n = sorted.size();
     const size_t dark = static_cast<size_t>(options.darkestShare * n);
@@ -88,14 +93,15 @@ std::vector<float> plausibleObservations(const TripleSetup& setup, std::span<con
     for (const LightTriple& t : setup.triples) {
         factors.push_back(glm::length(t.inverse * glm::vec3(observed[t.a], observed[t.b], observed[t.c])));
     }
-    std::vector<float> sorted = factors;
+    std::vector<float> sorted;
+    std::copy_if(factors.begin(), factors.end(), std::back_inserter(sorted), [](float v) { return !isClipped(v); });
     const float median = sorted.empty() ? 0.0f : quantile(sorted, 0.5);
     std::vector<float> valid(observed.size(), 0.0f), all(observed.size(), 0.0f);
     for (size_t j = 0; j < factors.size(); ++j) {
         const bool plausible = std::abs(factors[j] - median) <= kDiffuseRange * median;
         for (const int i : {setup.triples[j].a, setup.triples[j].b, setup.triples[j].c}) {
             valid[i] += plausible;
-            all[i] += 1;
+            all[i] += !isClipped(factors[j]);
         }
     }
     float best = 0;
@@ -194,7 +200,7 @@ PixelNormal refit(const TripleSetup& setup, std::span<const float> observed, glm
         residuals.clear();
         for (size_t i = 0; i < observed.size(); ++i) {
             const float predicted = glm::dot(g, setup.directions[i]);
-            if (predicted > 0) {
+            if (predicted > 0 && !isClipped(observed[i])) {
                 residuals.push_back(std::abs(observed[i] - predicted));
             }
         }

@@ -77,6 +77,13 @@ LambertianSolver::LambertianSolver(LambertianSolver&&) noexcept = default;
 
 PixelNormal LambertianSolver::solve(std::span<const float> intensities) const
 {
+    if (std::any_of(intensities.begin(), intensities.end(), isClipped)) {
+        std::vector<float> weights;
+        for (const float intensity : intensities) {
+            weights.push_back(isClipped(intensity) ? 0.0f : 1.0f);
+        }
+        return solve(intensities, weights);
+    }
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();
     for (size_t i = 0; i < intensities.size(); ++i) {
         sum += all_->rows[i] * intensities[i];
@@ -116,8 +123,10 @@ PixelNormal LambertianSolver::solve(std::span<const float> intensities, std::spa
     PixelNormal pixel = normalOf(rhoN, used);
     double squares = 0;
     for (size_t i = 0; i < intensities.size(); ++i) {
-        const double r = intensities[i] - rhoN.dot(eigenVector(directions_[i]));
-        squares += weights[i] * r * r;
+        if (weights[i] > 0) {
+            const double r = intensities[i] - rhoN.dot(eigenVector(directions_[i]));
+            squares += weights[i] * r * r;
+        }
     }
     const double freedom = std::max(1.0, static_cast<double>(used) - 3) * total / static_cast<double>(used);
     pixel.confidence *= confidenceOf(normalUncertainty(static_cast<float>(std::sqrt(squares / freedom)), pixel.albedo,

@@ -143,9 +143,10 @@ void addCosts(const PixelBatch& batch, const BatchVector& g, const glm::vec3* di
     for (size_t i = first; i < last; ++i) {
         const glm::vec3 l = directions[i];
         const Lanes line = l.x * gx + l.y * gy + l.z * gz;
-        const Lanes difference = lanesAt(batch.ofLight(i)) - (line > floor ? line : floor);
+        const Lanes observed = lanesAt(batch.ofLight(i)), difference = observed - (line > floor ? line : floor);
         const Lanes distance = difference > zero ? difference : -difference;
-        sum += distance < limit ? distance : limit;
+        const Lanes counted = distance < limit ? distance : limit;
+        sum += observed == observed ? counted : zero; // clipped observations are no numbers
     }
     std::memcpy(costs, &sum, sizeof sum);
 }

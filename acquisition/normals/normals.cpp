@@ -20,7 +20,7 @@ float toleranceOf(std::span<const float> observed, std::span<const float> predic
     thread_local std::vector<float> residuals;
     residuals.clear();
     for (size_t i = 0; i < observed.size(); ++i) {
-        if (predicted[i] > 0) {
+        if (predicted[i] > 0 && !isClipped(observed[i])) {
             residuals.push_back(std::abs(observed[i] - predicted[i]));
         }
     }
@@ -36,9 +36,10 @@ void judge(std::span<const float> observed, std::span<const float> predicted, st
     for (size_t i = 0; i < observed.size(); ++i) {
         const float difference = observed[i] - predicted[i];
         const bool dark = difference < -tolerance && observed[i] < kShadowShare * predicted[i];
-        verdicts[i] = predicted[i] <= 0 || dark ? Verdict::shadow
-                      : difference > tolerance  ? Verdict::highlight
-                                                : Verdict::used;
+        verdicts[i] = isClipped(observed[i])      ? Verdict::saturated
+                      : predicted[i] <= 0 || dark ? Verdict::shadow
+                      : difference > tolerance    ? Verdict::highlight
+                                                  : Verdict::used;
     }
 }
 
