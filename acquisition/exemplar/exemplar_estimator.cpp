@@ -8,6 +8,7 @@
 
 #include <Eigen/Dense>
 
+#include "engine/files/measures.h"
 #include "engine/files/parallel_for.h"
 
 namespace nacre {
@@ -15,6 +16,10 @@ namespace nacre {
 namespace {
 
 constexpr size_t kJudgedPerTask = 512;
+// A match that costs so many times the object's median is in doubt; consensus takes its place where Lambert's law costs
+// so much less.
+constexpr float kDoubtful = 1.5f;
+constexpr float kLambertShare = 0.8f;
 
 // From the scatter of the used residuals through the lights that are left, as for Lambertian pixels.
 float confidenceOf(std::span<const float> observed, std::span<const float> predicted, std::span<const Verdict> verdicts,
@@ -44,8 +49,20 @@ float confidenceOf(std::span<const float> observed, std::span<const float> predi
 struct ExemplarSetup {
     std::vector<Light> lights;
     ExemplarModel model;
+    MatchModel lambert; // on the model's ball
+    NormalEstimator consensus;
+    float doubtfulCost; // of a match
     int threads;
 };
+
+ExemplarSetup makeSetup(ExemplarModel model, const std::vector<Light>& lights, const NormalOptions& options)
+{
+    MatchModel lambert;
+    lambert.ball = makeReflectanceBall(*model.grid, lambert.reflectance, options.threads);
+    const float doubtful = kDoubtful * model.typicalCost;
+    return {lights,   std::move(model), std::move(lambert), makeConsensusEstimator(lights, options),
+            doubtful, options.threads};
+}
 
 NormalBlock judgedBlock(const ExemplarSetup& setup, const PixelLattice& pixels, const std::vector<BallMatch>& matches)
 {
@@ -70,15 +87,43 @@ NormalBlock judgedBlock(const ExemplarSetup& setup, const PixelLattice& pixels, 
     return block;
 }
 
+// Pixels that the object's reflectance explains badly, such as those of another material, are taken from consensus
+// where Lambert's law explains them better.
+void preferConsensus(const ExemplarSetup& setup, const PixelLattice& pixels, const std::vector<BallMatch>& matches,
+                     NormalBlock& block)
+{
+    std::vector<size_t> doubtful;
+    for (size_t p = 0; p < matches.size(); ++p) {
+        if (matches[p].cost > setup.doubtfulCost) {
+            doubtful.push_back(p);
+        }
+    }
+    const NormalBlock other = setup.consensus(selectPixels(pixels.intensities, doubtful));
+    const size_t n = pixels.lightCount;
+    for (size_t j = 0; j < doubtful.size(); ++j) {
+        const size_t p = doubtful[j];
+        const glm::vec2 texel = ballTexelOf(other.pixels[j].normal, setup.model.grid->size);
+        if (other.pixels[j].confidence > 0 &&
+            matchAtTexel(setup.lambert, pixels, p, texel, 1).cost < kLambertShare * matches[p].cost) {
+            block.pixels[p] = other.pixels[j];
+            std::copy_n(other.verdicts.begin() + static_cast<std::ptrdiff_t>(j * n), n,
+                        block.verdicts.begin() + static_cast<std::ptrdiff_t>(p * n));
+        }
+    }
+}
+
 } // namespace
 
 NormalEstimator makeExemplarEstimator(ExemplarModel model, const std::vector<Light>& lights,
                                       const NormalOptions& options)
 {
-    const auto setup = std::make_shared<const ExemplarSetup>(ExemplarSetup{lights, std::move(model), options.threads});
+    const auto setup = std::make_shared<const ExemplarSetup>(makeSetup(std::move(model), lights, options));
     return [setup](const Intensities& intensities) {
         const PixelLattice pixels = makePixelLattice(intensities, setup->threads);
-        return judgedBlock(*setup, pixels, matchPixels(setup->model, pixels, setup->threads));
+        const std::vector<BallMatch> matches = matchPixels(setup->model, pixels, setup->threads);
+        NormalBlock block = judgedBlock(*setup, pixels, matches);
+        preferConsensus(*setup, pixels, matches, block);
+        return block;
     };
 }
 

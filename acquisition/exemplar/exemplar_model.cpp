@@ -9,6 +9,7 @@
 
 #include "acquisition/exemplar/exemplar_hypotheses.h"
 #include "acquisition/exemplar/reflectance_fit.h"
+#include "engine/files/measures.h"
 #include "engine/files/parallel_for.h"
 
 namespace nacre {
@@ -59,21 +60,33 @@ std::vector<BallMatch> inherited(const PixelLattice& fine, const CoarserLevel& c
     return result;
 }
 
-// Normals and the object's reflectance in turn, from where they are.
-void improve(const PixelLattice& lattice, int threads, MatchModel& model, std::vector<BallMatch>& matches)
+float medianCost(const std::vector<BallMatch>& matches)
 {
+    std::vector<float> costs;
+    for (const BallMatch& match : matches) {
+        costs.push_back(match.cost);
+    }
+    return costs.empty() ? 1.0f : quantile(costs, 0.5);
+}
+
+// Normals and the object's reflectance in turn, from where they are. Answers the matches' median cost.
+float improve(const PixelLattice& lattice, int threads, MatchModel& model, std::vector<BallMatch>& matches)
+{
+    float typical = 1;
     const bool additive = model.reflectance.additive;
     double cost = 1;
     for (int pass = 0; pass < kMostPasses; ++pass) {
         sweepMatches(model, lattice, kNarrowSteps, {}, threads, matches);
         polishMatches(model, lattice, threads, matches);
         const double next = meanCost(matches);
+        typical = medianCost(matches);
         refitModel(lattice, additive, threads, model, matches);
         if (next > (1 - kLeastGain) * cost) {
             break;
         }
         cost = next;
     }
+    return typical;
 }
 
 // The hypothesis that predicts held-out lights best; without a jury the one of least cost.
@@ -113,7 +126,7 @@ ExemplarModel makeExemplarModel(const Intensities& sample, const std::vector<Lig
     for (size_t level = levels.size(); level-- > 0;) {
         const PixelLattice& fine = level > 0 ? levels[level - 1].lattice : seen;
         best.matches = inherited(fine, levels[level], best.matches);
-        improve(fine, options.threads, best.model, best.matches);
+        model.typicalCost = improve(fine, options.threads, best.model, best.matches);
     }
     if (jury) {
         model.heldOutErrors = heldOutErrors(*jury, best.model, seen, best.matches, options.threads);
@@ -122,20 +135,25 @@ ExemplarModel makeExemplarModel(const Intensities& sample, const std::vector<Lig
         for (size_t p = 0; p < best.matches.size(); ++p) {
             best.matches[p].scale *= seen.bright[p] / model.lattice.bright[p];
         }
-        improve(model.lattice, options.threads, best.model, best.matches);
+        model.typicalCost = improve(model.lattice, options.threads, best.model, best.matches);
+    }
+    if (!jury && levels.empty()) {
+        model.typicalCost = medianCost(best.matches);
     }
     model.match = std::move(best.model);
     model.matches = std::move(best.matches);
+    model.nearest = nearestPixels(model.lattice);
     return model;
 }
 
 namespace {
 
-// The lattice's pixel for a place in the picture's squares; -1 where there is none.
-int latticePixel(const PixelLattice& lattice, int x, int y)
+// The lattice's pixel in, or nearest to, a square that may lie outside it.
+int latticePixel(const ExemplarModel& model, int x, int y)
 {
-    const bool isInside = x >= 0 && y >= 0 && x < lattice.width && y < lattice.height;
-    return isInside ? lattice.index[static_cast<size_t>(y) * lattice.width + x] : -1;
+    const PixelLattice& lattice = model.lattice;
+    const int u = std::clamp(x, 0, lattice.width - 1), v = std::clamp(y, 0, lattice.height - 1);
+    return model.nearest[static_cast<size_t>(v) * lattice.width + u];
 }
 
 } // namespace
@@ -151,11 +169,9 @@ std::vector<BallMatch> matchPixels(const ExemplarModel& model, const PixelLattic
                       y = static_cast<int>(pixels.places[p]) / pixels.width / model.lattice.spacing;
             candidates.assign(1, {ballTexelOf({0, 0, 1}, model.grid->size), 1, 2, -1});
             for (const glm::ivec2& square : kSquares) {
-                const int near = latticePixel(lattice, x + square.x, y + square.y);
-                if (near >= 0) {
-                    candidates.push_back(model.matches[near]);
-                    candidates.back().scale *= lattice.bright[near] / pixels.bright[p];
-                }
+                const int near = latticePixel(model, x + square.x, y + square.y);
+                candidates.push_back(model.matches[near]);
+                candidates.back().scale *= lattice.bright[near] / pixels.bright[p];
             }
             matches[p] = bestMatch(model.match, pixels, p, candidates, kFineSteps);
         }

@@ -15,6 +15,8 @@ struct ExemplarModel {
     MatchModel match;
     PixelLattice lattice;
     std::vector<BallMatch> matches;
+    std::vector<int> nearest;         // see nearestPixels
+    float typicalCost = 1;            // of a match, in the median
     std::vector<float> heldOutErrors; // per pixel of the jury's lattice, before the other lights were seen
 };
 
@@ -24,7 +26,7 @@ struct ExemplarModel {
 ExemplarModel makeExemplarModel(const Intensities& sample, const std::vector<Light>& lights,
                                 const NormalOptions& options, const Jury* jury, std::vector<Finding>& findings);
 
-// Matches of any pixels of the object: candidates are those of the lattice around a pixel and steps from the best of
+// Matches of any pixels of the object: candidates are the nearest ones of the lattice and steps from the best of
 // them. Every pixel by itself, so that it does not matter which ones are asked for at once.
 std::vector<BallMatch> matchPixels(const ExemplarModel& model, const PixelLattice& pixels, int threads);
 

@@ -6,6 +6,8 @@
 #include <limits>
 #include <utility>
 
+#include <glm/vec2.hpp>
+
 #include "engine/files/measures.h"
 #include "engine/files/parallel_for.h"
 
@@ -127,6 +129,26 @@ PixelLattice thinnedLattice(const PixelLattice& lattice, int spacing, int thread
     thin.spacing = lattice.spacing * spacing;
     prepareRoots(thin, threads);
     return thin;
+}
+
+// From all pixels at once, a step outwards at a time.
+std::vector<int> nearestPixels(const PixelLattice& lattice)
+{
+    std::vector<int> nearest = lattice.index;
+    std::vector<uint32_t> reached = lattice.places;
+    for (size_t next = 0; next < reached.size(); ++next) {
+        const int x = static_cast<int>(reached[next]) % lattice.width,
+                  y = static_cast<int>(reached[next]) / lattice.width;
+        for (const glm::ivec2& step : {glm::ivec2(1, 0), {-1, 0}, {0, 1}, {0, -1}}) {
+            const int u = x + step.x, v = y + step.y;
+            const bool isInside = u >= 0 && v >= 0 && u < lattice.width && v < lattice.height;
+            if (isInside && nearest[static_cast<size_t>(v) * lattice.width + u] < 0) {
+                nearest[static_cast<size_t>(v) * lattice.width + u] = nearest[reached[next]];
+                reached.push_back(static_cast<uint32_t>(v * lattice.width + u));
+            }
+        }
+    }
+    return nearest;
 }
 
 } // namespace nacre

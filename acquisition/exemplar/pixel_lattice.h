@@ -40,4 +40,7 @@ PixelLattice makeThinLattice(const Intensities& intensities, int threads);
 // as they are. `parents`: for each pixel its square's.
 PixelLattice thinnedLattice(const PixelLattice& lattice, int spacing, int threads, std::vector<int>& parents);
 
+// width x height: the pixel in each square or, where there is none, one that is as few steps away as any.
+std::vector<int> nearestPixels(const PixelLattice& lattice);
+
 } // namespace nacre

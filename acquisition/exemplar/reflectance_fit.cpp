@@ -91,7 +91,8 @@ std::vector<FitSample> fitSamples(const PixelLattice& lattice, const MatchModel&
         for (size_t i = 0; i < lattice.lightCount; ++i) {
             const float cosine = glm::dot(normal, grid.directions[i]), root = lattice.rootsOf(p)[i],
                         observed = root * root;
-            if (isClipped(observed) || cosine < kLeastFitCosine || observed * lattice.bright[p] < kLitFitShare * predicted[i]) {
+            if (isClipped(observed) || cosine < kLeastFitCosine ||
+                observed * lattice.bright[p] < kLitFitShare * predicted[i]) {
                 continue;
             }
             const int half = std::min(static_cast<int>(halfBinOf(glm::dot(normal, grid.halves[i]))), kHalfBins - 1),
