@@ -8,11 +8,12 @@ namespace nacre {
 namespace {
 
 // In the order of FindingCode.
-constexpr std::array<std::string_view, 21> kNames = {"transfer-curve-left",
+constexpr std::array<std::string_view, 22> kNames = {"transfer-curve-left",
                                                      "transfer-curve-taken",
                                                      "lights-near",
                                                      "lights-ill-placed",
                                                      "few-lights",
+                                                     "intensities-uncertain",
                                                      "spheres-disagree",
                                                      "directions-contradicted",
                                                      "lights-turned",

@@ -13,6 +13,7 @@ enum class FindingCode {
     lightsNear,
     lightsIllPlaced,
     fewLights,
+    intensitiesUncertain,
     spheresDisagree,
     directionsContradicted,
     lightsTurned,

@@ -16,8 +16,6 @@ namespace {
 // calibration and interreflection do (kLeastTolerance) does no harm.
 constexpr float kFactor = 3;
 constexpr float kSigmas = 4;
-// A photograph is dark where less than this share of what faces its light is lit: cast shadows leave more.
-constexpr float kLeastLitShare = 0.1f;
 // Fewer photographs do not outvote one.
 constexpr size_t kFewestLeft = 6;
 constexpr double kWorstCondition = 30; // what is left has to span space well

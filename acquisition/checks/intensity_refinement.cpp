@@ -2,30 +2,44 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
+#include <Eigen/Dense>
 #include <fmt/format.h>
 #include <glm/common.hpp>
 #include <glm/exponential.hpp>
 #include <glm/geometric.hpp>
 
+#include "acquisition/lights/lights.h"
 #include "engine/files/measures.h"
 
 namespace nacre {
 
 namespace {
 
-constexpr int kMostIterations = 60;
-// Steps in log ratio are lengthened: alternation alone creeps where few lights share few normals.
-constexpr float kOverRelaxation = 1.5f;
-// Ratios that move by less than this are at rest.
-constexpr float kRest = 0.002f;
+// Alternation comes close from afar, though slowly: its steps in log ratio are lengthened. Newton's steps are exact
+// close by, where it creeps.
+constexpr double kOverRelaxation = 1.5;
+constexpr float kClose = 0.02f; // alternation that moves ratios by less is close
+constexpr float kRest = 0.002f; // ratios that move by less are at rest
+// So are ratios that miss their medians by less (root mean square) and came no closer in so many steps: medians of few
+// pixels jump.
+constexpr double kJumps = 0.01;
+constexpr int kIdleSteps = 5;
 // Medians over thousands of pixels do not need each pixel's best triple.
 constexpr size_t kTriples = 100;
 // Pixels that a light grazes say little of its strength.
 constexpr float kLeastRefinedCosine = 0.3f;
 constexpr size_t kFewestPixels = 20;
+// Pixels whose lights left lie in one plane tell nothing: least over largest squared singular value.
+constexpr double kLeastGramShare = 1e-4;
 // With fewer lights a pixel's normal follows whatever a photograph claims.
 constexpr size_t kFewestLights = 6;
+// Of ratios, as an estimate of how far equal lights differ: 1 %, which few photographs are better than.
+constexpr double kLeastSpread = 0.01;
+// Lights whose condition is larger tell a tilt of the object from a slope of their intensities by their curvature
+// alone.
+constexpr double kWorstTellingCondition = 5;
 // A photograph disagrees when its log ratio is beyond this and beyond so many of the photographs' own spreads: what is
 // not Lambert makes ratios scatter, too.
 constexpr float kLeastDeviation = 0.095f; // 10 %
@@ -35,13 +49,36 @@ constexpr float kDeviationSigmas = 5;
 struct ChannelRatios {
     std::vector<float> values[3];
     std::vector<float> grey;
-    size_t shadowed = 0; // pixels that face the light, but are dark
+
+    void add(const glm::vec3& ratio, float greyRatio)
+    {
+        for (int c = 0; c < 3; ++c) {
+            if (std::isfinite(ratio[c])) {
+                values[c].push_back(ratio[c]);
+            }
+        }
+        if (std::isfinite(greyRatio)) {
+            grey.push_back(greyRatio);
+        }
+    }
 };
 
-std::vector<ChannelRatios> gatherRatios(const Observations& sample, const NormalBlock& normals,
-                                        const std::vector<Light>& lights)
+// Of the pixels that face one photograph's light.
+struct FacingRatios {
+    ChannelRatios lit, shadowed;
+
+    float litShare() const
+    {
+        return static_cast<float>(lit.grey.size()) / std::max<size_t>(1, lit.grey.size() + shadowed.grey.size());
+    }
+    // A photograph that is dark nearly everywhere may be merely dim: its dark pixels then agree on a ratio.
+    ChannelRatios& telling() { return litShare() < kLeastLitShare ? shadowed : lit; }
+};
+
+std::vector<FacingRatios> gatherRatios(const Observations& sample, const NormalBlock& normals,
+                                       const std::vector<Light>& lights)
 {
-    std::vector<ChannelRatios> ratios(lights.size());
+    std::vector<FacingRatios> ratios(lights.size());
     for (size_t p = 0; p < sample.pixels.size(); ++p) {
         const PixelNormal& pixel = normals.pixels[p];
         const Verdict* verdicts = &normals.verdicts[p * lights.size()];
@@ -57,22 +94,10 @@ std::vector<ChannelRatios> gatherRatios(const Observations& sample, const Normal
         }
         for (size_t i = 0; i < lights.size(); ++i) {
             const float nDotL = glm::dot(pixel.normal, lights[i].direction);
-            if (squares <= 0 || nDotL < kLeastRefinedCosine) {
-                continue;
-            }
-            if (verdicts[i] == Verdict::shadow) {
-                ++ratios[i].shadowed;
-            } else {
-                const glm::vec3 ratio = radiance[i] / lights[i].irradiance * squares / (sum * nDotL);
-                for (int c = 0; c < 3; ++c) {
-                    if (std::isfinite(ratio[c])) {
-                        ratios[i].values[c].push_back(ratio[c]);
-                    }
-                }
-                const float grey = greyOf(radiance[i] / lights[i].irradiance) * squares / (greyOf(sum) * nDotL);
-                if (std::isfinite(grey)) {
-                    ratios[i].grey.push_back(grey);
-                }
+            if (squares > 0 && nDotL >= kLeastRefinedCosine) {
+                const glm::vec3 seen = radiance[i] / lights[i].irradiance;
+                (verdicts[i] == Verdict::shadow ? ratios[i].shadowed : ratios[i].lit)
+                    .add(seen * squares / (sum * nDotL), greyOf(seen) * squares / (greyOf(sum) * nDotL));
             }
         }
     }
@@ -113,11 +138,11 @@ float largestGrey(const std::vector<glm::vec3>& ratios)
 }
 
 // Robust relative standard deviation of one photograph's ratios.
-PhotographScatter scatterOf(ChannelRatios& ratios)
+PhotographScatter scatterOf(FacingRatios& ratios)
 {
     PhotographScatter scatter;
-    std::vector<float>& grey = ratios.grey;
-    scatter.litShare = static_cast<float>(grey.size()) / std::max<size_t>(1, grey.size() + ratios.shadowed);
+    scatter.litShare = ratios.litShare();
+    std::vector<float>& grey = ratios.lit.grey;
     if (grey.size() >= kFewestPixels) {
         const float median = quantile(grey, 0.5);
         for (float& value : grey) {
@@ -153,9 +178,118 @@ float steepestStep(const std::vector<glm::vec3>& from, const std::vector<glm::ve
     return steepest;
 }
 
-// Ratios of the photographs that are free; the others' stay 1. Without a fixed one the scale is the median's.
+// How the median ratios answer to small logarithmic errors x of the irradiances: log ratios = M x. Each pixel's normal
+// takes up what of x is linear in its lights, so M is the mean over the pixels of I - P, P the projector onto their
+// directions, weighted by squared cosines.
+Eigen::MatrixXd responseOf(const NormalBlock& normals, const std::vector<Light>& lights)
+{
+    const Eigen::Index n = static_cast<Eigen::Index>(lights.size()),
+                       pixels = static_cast<Eigen::Index>(normals.pixels.size());
+    Eigen::VectorXd weights = Eigen::VectorXd::Zero(n);
+    Eigen::MatrixXd taken = Eigen::MatrixXd::Zero(n, 3 * pixels); // P = taken * taken^T
+    Eigen::MatrixX3d rows(n, 3);
+    for (Eigen::Index p = 0; p < pixels; ++p) {
+        Eigen::Matrix3d gram = Eigen::Matrix3d::Zero();
+        rows.setZero();
+        for (Eigen::Index i = 0; i < n; ++i) {
+            const glm::vec3& l = lights[i].direction;
+            const double cosine = glm::dot(normals.pixels[p].normal, l);
+            const Verdict verdict = normals.verdicts[p * n + i];
+            if (cosine > 0 && verdict != Verdict::shadow) {
+                weights(i) += cosine * cosine;
+            }
+            if (cosine > 0 && verdict == Verdict::used) {
+                const Eigen::RowVector3d direction(l.x, l.y, l.z);
+                gram += direction.transpose() * direction;
+                rows.row(i) = cosine * direction;
+            }
+        }
+        const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(gram);
+        if (solver.eigenvalues()(0) > kLeastGramShare * solver.eigenvalues()(2)) {
+            taken.middleCols<3>(3 * p) = rows * solver.operatorInverseSqrt();
+        }
+    }
+    Eigen::MatrixXd response = -taken * taken.transpose();
+    response.diagonal() += weights;
+    for (Eigen::Index i = 0; i < n; ++i) {
+        if (weights(i) > 0) {
+            response.row(i) /= weights(i);
+        } else {
+            response(i, i) = 1; // it turns no normal
+        }
+    }
+    return response;
+}
+
+// Of the free photographs that show enough: median ratios, logarithms of grey and the colour beside it.
+struct MedianRatios {
+    std::vector<Eigen::Index> photographs;
+    Eigen::VectorXd logs;
+    std::vector<glm::vec3> colours;
+};
+
+MedianRatios mediansOf(std::vector<FacingRatios>& gathered, const std::vector<bool>& isFree)
+{
+    MedianRatios medians;
+    std::vector<double> logs;
+    for (size_t i = 0; i < gathered.size(); ++i) {
+        ChannelRatios& ratios = gathered[i].telling();
+        const float grey = isFree[i] && ratios.grey.size() >= kFewestPixels ? quantile(ratios.grey, 0.5) : 0.0f;
+        if (grey > 0) {
+            glm::vec3 colour(1);
+            for (int c = 0; c < 3; ++c) {
+                std::vector<float>& values = ratios.values[c];
+                const float ratio = values.size() >= kFewestPixels ? quantile(values, 0.5) : grey;
+                colour[c] = ratio > 0 ? ratio / grey : 1.0f;
+            }
+            medians.photographs.push_back(static_cast<Eigen::Index>(i));
+            medians.colours.push_back(colour);
+            logs.push_back(std::log(grey));
+        }
+    }
+    medians.logs = Eigen::Map<const Eigen::VectorXd>(logs.data(), static_cast<Eigen::Index>(logs.size()));
+    return medians;
+}
+
+// Newton's step of the log ratios x to where the medians equal prior * x, which they miss. It is held back while they
+// are large, as M holds for small ones alone.
+Eigen::VectorXd newtonStep(const MedianRatios& medians, const Eigen::VectorXd& missed, const Eigen::MatrixXd& all,
+                           double prior, bool fixesScale)
+{
+    Eigen::MatrixXd response = all(medians.photographs, medians.photographs);
+    const double count = static_cast<double>(medians.logs.size());
+    response.diagonal().array() += prior + medians.logs.norm() / std::sqrt(count);
+    if (fixesScale) {
+        response.array() += 1 / count; // of the common factor, which no ratio tells
+    }
+    return response.partialPivLu().solve(missed);
+}
+
+Eigen::VectorXd logarithmsOf(const std::vector<glm::vec3>& ratios)
+{
+    Eigen::VectorXd logs(ratios.size());
+    for (size_t i = 0; i < ratios.size(); ++i) {
+        logs(static_cast<Eigen::Index>(i)) = std::log(greyOf(ratios[i]));
+    }
+    return logs;
+}
+
+// Noise over signal: the square of the pixels' usual scatter over how far the lights themselves differ.
+double priorOf(const PhotographRatios& found)
+{
+    std::vector<float> scatters;
+    for (const PhotographScatter& scatter : found.scatters) {
+        scatters.push_back(scatter.spread);
+    }
+    const Eigen::VectorXd logs = logarithmsOf(found.ratios);
+    const double spread = std::sqrt((logs.array() - logs.mean()).square().mean());
+    return std::pow(quantile(scatters, 0.5) / std::max(kLeastSpread, spread), 2);
+}
+
+// Ratios of the photographs that are free; the others' stay 1. Without a fixed one the scale is the median's, and
+// what the photographs tell of the ratios is weighed against their being equal. All are 1 where they do not settle.
 PhotographRatios refineRatios(const Observations& sample, const std::vector<Light>& lights,
-                              const NormalOptions& options, const std::vector<bool>& isFree)
+                              const NormalOptions& options, const std::vector<bool>& isFree, int mostIterations)
 {
     PhotographRatios result;
     result.ratios.assign(lights.size(), glm::vec3(1));
@@ -164,17 +298,24 @@ PhotographRatios refineRatios(const Observations& sample, const std::vector<Ligh
     NormalOptions quick = options;
     quick.triples = std::min(options.triples, kTriples);
     const NormalEstimator consensus = makeConsensusEstimator(lights, quick); // knows directions alone
-    for (; result.iterations < kMostIterations; ++result.iterations) {
+    bool isClose = false;
+    double prior = 0, least = std::numeric_limits<double>::infinity();
+    int idle = 0; // steps since the least miss
+    for (; result.iterations < mostIterations && !result.settled; ++result.iterations) {
         const NormalBlock normals = consensus(intensitiesOf(sample, current));
-        std::vector<ChannelRatios> gathered = gatherRatios(sample, normals, current);
+        std::vector<FacingRatios> gathered = gatherRatios(sample, normals, current);
+        const MedianRatios medians = mediansOf(gathered, isFree);
+        const Eigen::VectorXd missed = medians.logs - prior * logarithmsOf(result.ratios)(medians.photographs);
+        const double miss = missed.norm() / std::sqrt(std::max<double>(1, static_cast<double>(missed.size())));
+        idle = miss < least ? 0 : idle + 1;
+        least = std::min(least, miss);
+        Eigen::VectorXd step = kOverRelaxation * medians.logs;
+        if (isClose && !medians.photographs.empty()) {
+            step = newtonStep(medians, missed, responseOf(normals, lights), prior, allFree);
+        }
         std::vector<glm::vec3> next = result.ratios;
-        for (size_t i = 0; i < lights.size(); ++i) {
-            for (int c = 0; c < 3; ++c) {
-                std::vector<float>& values = gathered[i].values[c];
-                const bool knows = isFree[i] && values.size() >= kFewestPixels;
-                const float ratio = knows ? quantile(values, 0.5) : 1.0f;
-                next[i][c] *= ratio > 0 ? std::pow(ratio, kOverRelaxation) : 1.0f;
-            }
+        for (size_t k = 0; k < medians.photographs.size(); ++k) {
+            next[medians.photographs[k]] *= medians.colours[k] * static_cast<float>(std::exp(step(k)));
         }
         if (allFree) {
             fixScale(next);
@@ -184,13 +325,22 @@ PhotographRatios refineRatios(const Observations& sample, const std::vector<Ligh
             current[i].irradiance = lights[i].irradiance * next[i];
         }
         result.ratios = next;
-        if (change < kRest || result.iterations + 1 == kMostIterations) {
-            result.scatters.clear();
-            std::transform(gathered.begin(), gathered.end(), std::back_inserter(result.scatters), scatterOf);
+        result.scatters.clear();
+        std::transform(gathered.begin(), gathered.end(), std::back_inserter(result.scatters), scatterOf);
+        result.settled = isClose && (change < kRest || (idle >= kIdleSteps && miss < kJumps));
+        if (!isClose && change < kClose) {
+            isClose = true;
+            least = std::numeric_limits<double>::infinity();
+            prior = allFree ? priorOf(result) : 0;
         }
-        if (change < kRest) {
-            break;
-        }
+    }
+    if (!result.settled) {
+        // With none free it settles at once.
+        PhotographRatios asGiven =
+            refineRatios(sample, lights, options, std::vector<bool>(lights.size(), false), kMostIterations);
+        asGiven.settled = false;
+        asGiven.iterations = result.iterations;
+        return asGiven;
     }
     result.spread = spreadOf(result.ratios);
     return result;
@@ -207,11 +357,26 @@ std::vector<Finding> correctIntensities(const PhotographRatios& found, const std
                                         bool known, std::vector<Light>& lights)
 {
     std::vector<Finding> remarks;
+    const double condition = conditionOf(lights);
+    const bool illPlaced = condition > kWorstTellingCondition;
+    if (!found.settled) {
+        return {{FindingCode::intensitiesUncertain,
+                 fmt::format("the intensities do not settle in {} steps: {}", found.iterations,
+                             known ? "they stay as given" : "the lights are taken to be equally strong")}};
+    }
     if (!known) {
         remarks.push_back(
             {FindingCode::intensitiesEstimated,
              fmt::format("intensities estimated from the photographs themselves in {} steps: {:.2f} to {:.2f}",
                          found.iterations, leastGrey(found.ratios), largestGrey(found.ratios))});
+        if (illPlaced) {
+            remarks.push_back(
+                {FindingCode::intensitiesUncertain,
+                 fmt::format("the lights are ill placed (condition {:.1f}; up to {:.0f} is good): their intensities "
+                             "hardly differ from a tilt of the object, and stay near equal where the photographs do "
+                             "not tell; measure them",
+                             condition, kWorstTellingCondition)});
+        }
     }
     std::vector<glm::vec3> corrected;
     std::string corrections;
@@ -229,16 +394,20 @@ std::vector<Finding> correctIntensities(const PhotographRatios& found, const std
             {FindingCode::intensitiesCorrected,
              fmt::format(
                  "{} photograph(s) are {:.2f} to {:.2f} times as bright as the others predict; their intensities "
-                 "were corrected: {}",
-                 corrected.size(), leastGrey(corrected), largestGrey(corrected), corrections)});
+                 "were corrected: {}{}",
+                 corrected.size(), leastGrey(corrected), largestGrey(corrected), corrections,
+                 illPlaced
+                     ? fmt::format("; the others stay as given, since the lights are ill placed (condition {:.1f})",
+                                   condition)
+                     : "")});
     }
     return remarks;
 }
 
 PhotographRatios estimateIntensityRatios(const Observations& sample, const std::vector<Light>& lights,
-                                         const NormalOptions& options)
+                                         const NormalOptions& options, int mostIterations)
 {
-    return refineRatios(sample, lights, options, std::vector<bool>(lights.size(), true));
+    return refineRatios(sample, lights, options, std::vector<bool>(lights.size(), true), mostIterations);
 }
 
 PhotographRatios confirmedRatios(const PhotographRatios& found, const Observations& sample,
@@ -251,7 +420,7 @@ PhotographRatios confirmedRatios(const PhotographRatios& found, const Observatio
     if (std::find(isDoubted.begin(), isDoubted.end(), true) == isDoubted.end()) {
         return found;
     }
-    PhotographRatios confirmed = refineRatios(sample, lights, options, isDoubted);
+    PhotographRatios confirmed = refineRatios(sample, lights, options, isDoubted, kMostIterations);
     confirmed.spread = found.spread; // the photographs' own scatter, which fixed ratios do not show
     return confirmed;
 }

@@ -8,6 +8,9 @@
 
 namespace nacre {
 
+// A photograph is dark where less than this share of what faces its light is lit: cast shadows leave more.
+constexpr float kLeastLitShare = 0.1f;
+
 // How far a photograph's pixels are from agreeing on one ratio.
 struct PhotographScatter {
     float spread = 0;   // robust standard deviation of observation over prediction, relative to its median
@@ -20,13 +23,19 @@ struct PhotographRatios {
     float spread = 0;              // robust standard deviation of their logarithms
     std::vector<PhotographScatter> scatters; // per light
     int iterations = 0;
+    bool settled = false; // else the ratios are 1 and the scatters those of the irradiances as they were given
 };
+
+constexpr int kMostIterations = 60;
 
 // Normals by consensus on the sample, ratios of observation to Lambertian prediction, irradiances times the ratios, and
 // again until they rest (semi-calibrated photometric stereo: Cho, Matsushita, Tai and Kweon, Photometric Stereo Under
-// Non-uniform Light Intensities and Exposures, 2016, with medians). `lights` stay as they are; the ratios tell.
+// Non-uniform Light Intensities and Exposures, 2016, with medians). Close to rest by Newton's steps, since a slope of
+// the intensities that tilts the object leaves ratios near 1 where lights are ill placed. What the photographs tell by
+// less than their own scatter is drawn to equal ratios, all the more the worse the lights are placed and the less the
+// ratios differ otherwise. `lights` stay as they are; the ratios tell.
 PhotographRatios estimateIntensityRatios(const Observations& sample, const std::vector<Light>& lights,
-                                         const NormalOptions& options);
+                                         const NormalOptions& options, int mostIterations = kMostIterations);
 
 // For irradiances that were measured: photographs whose ratios disagree are asked again with all others at 1. Few
 // lights leave room to explain one bad photograph by the strength of another, which does not hold once the others hold
@@ -38,7 +47,8 @@ PhotographRatios confirmedRatios(const PhotographRatios& found, const Observatio
 bool canCompare(const Observations& sample);
 
 // Multiplies irradiances by the ratios: of every light where irradiances are not `known`, else of the photographs that
-// disagree with the rest. Answers a remark for each, by the photographs' names.
+// disagree with the rest. Answers a remark for each, by the photographs' names, and a warning where intensities did not
+// settle, or nobody gave them for lights that are ill placed.
 std::vector<Finding> correctIntensities(const PhotographRatios& found, const std::vector<std::string>& names,
                                         bool known, std::vector<Light>& lights);
 
