@@ -1,5 +1,7 @@
 #include "acquisition/chain/normal_estimation.h"
 
+#include <algorithm>
+#include <span>
 #include <utility>
 
 #include "acquisition/checks/height_consistency.h"
@@ -9,6 +11,8 @@
 namespace nacre {
 
 namespace {
+
+constexpr int kFewestLit = 3; // lights that a normal and an albedo take
 
 // A few thousand pixels spread evenly over the whole mask.
 Observations sampleOf(ObservationBlocks& blocks)
@@ -122,7 +126,10 @@ void storeNormals(const Observations& block, const NormalBlock& normals, bool ke
         const PixelNormal& pixel = normals.pixels[p];
         estimate.normals.normals[block.pixels[p]] = pixel.confidence > 0 ? pixel.normal : glm::vec3(0);
         estimate.normals.confidence[block.pixels[p]] = pixel.confidence;
+        const auto verdicts = std::span(normals.verdicts).subspan(p * n, n);
+        const bool isShaded = std::count(verdicts.begin(), verdicts.end(), Verdict::used) < kFewestLit;
         estimate.pixelsWithoutNormal += pixel.confidence <= 0;
+        estimate.pixelsInShade += pixel.confidence <= 0 && isShaded;
         for (size_t i = 0; i < n; ++i) {
             VerdictCounts& counts = estimate.verdicts[i];
             switch (normals.verdicts[p * n + i]) {

@@ -19,10 +19,9 @@ struct CheckedSample {
     std::vector<Finding> findings;
 };
 
-// `width`: of the grid that the sample's pixels count in; 0 where it is not known. Each finding names what is
-// likely wrong with the photographs or lights, and what to do; docs/limitations.md lists them.
-CheckedSample checkCapture(const Observations& sample, const std::vector<Light>& lights,
-                           const NormalOptions& options);
+// Each finding names what is likely wrong with the photographs or lights, and what to do; docs/limitations.md lists
+// them.
+CheckedSample checkCapture(const Observations& sample, const std::vector<Light>& lights, const NormalOptions& options);
 
 // What is to be said of a method's normals, once it is known which method was taken.
 std::vector<Finding> methodWarnings(const CheckedSample& sample, NormalMethod method, const NormalEstimator& estimator);

@@ -12,7 +12,8 @@ namespace nacre {
 
 namespace {
 
-// Of the Lambertian methods the simplest wins a tie.
+// Of the Lambertian methods the simpler wins a tie. Exemplars win one against them: they know what Lambert knows and
+// highlights, too, and take doubtful pixels from consensus.
 constexpr NormalMethod kLambertian[] = {NormalMethod::leastSquares, NormalMethod::consensus};
 // A difference of the mean errors below so many standard errors, or so small a share, is a tie.
 constexpr double kTieErrors = 2;
@@ -65,7 +66,7 @@ std::vector<float> lambertianErrors(NormalMethod method, const Jury& jury, const
 }
 
 // The method whose normals let the object's own reflectance predict held-out lights best: each candidate estimates the
-// sample's normals from the others. A tie goes to the simpler method.
+// sample's normals from the others.
 NormalEstimator chosenEstimator(const Intensities& sample, const std::vector<Light>& lights,
                                 const NormalOptions& options, NormalReport& report)
 {
@@ -83,7 +84,7 @@ NormalEstimator chosenEstimator(const Intensities& sample, const std::vector<Lig
     std::vector<float> best;
     const auto consider = [&](NormalMethod method, std::vector<float> errors) {
         said += fmt::format("{}{} {:.4f}", said.empty() ? "" : ", ", nameOf(method), meanOf(errors));
-        if (best.empty() || isBetter(errors, best)) {
+        if (best.empty() || (method == NormalMethod::exemplar ? !isBetter(best, errors) : isBetter(errors, best))) {
             report.method = method;
             best = std::move(errors);
         }

@@ -26,8 +26,7 @@ Intensities intensitiesOf(const Observations& block, const std::vector<Light>& l
         const auto radiance = block.radianceOf(p);
         const auto saturated = block.saturatedOf(p);
         for (size_t i = 0; i < lights.size(); ++i) {
-            result.values[p * result.stride + i] =
-                saturated[i] ? kClipped : greyOf(radiance[i] / lights[i].irradiance);
+            result.values[p * result.stride + i] = saturated[i] ? kClipped : greyOf(radiance[i] / lights[i].irradiance);
         }
     }
     return result;

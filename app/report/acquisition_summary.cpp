@@ -207,9 +207,10 @@ std::string describe(const std::vector<StageTime>& times)
 
 std::string describeNormals(const Capture& capture, const NormalEstimate& estimate)
 {
-    std::string text = fmt::format("\nnormals      {} by {}, {} pixels without one\n",
-                                   capture.maskPixels - estimate.pixelsWithoutNormal, nameOf(estimate.report.method),
-                                   estimate.pixelsWithoutNormal);
+    std::string text =
+        fmt::format("\nnormals      {} by {}, {} pixels without one ({} of them lit by fewer than three lights)\n",
+                    capture.maskPixels - estimate.pixelsWithoutNormal, nameOf(estimate.report.method),
+                    estimate.pixelsWithoutNormal, estimate.pixelsInShade);
     for (const Finding& finding : estimate.report.findings) {
         text += fmt::format("             {}\n", lineOf(finding));
     }
@@ -298,6 +299,7 @@ Json summaryOf(const Capture& capture, const NormalEstimate& estimate)
                  {"normals", nameOf(estimate.report.method)},
                  {"findings", jsonOf(estimate)},
                  {"pixelsWithoutNormal", estimate.pixelsWithoutNormal},
+                 {"pixelsInShade", estimate.pixelsInShade},
                  {"pixelsSmoothed", estimate.pixelsSmoothed},
                  {"lambertianMisfit", estimate.report.lambertianMisfit}, // null where nothing is lit
                  {"photographsLeftOut", estimate.leftOut},

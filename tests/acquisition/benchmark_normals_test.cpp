@@ -21,11 +21,12 @@ double meanError(const std::string& object, NormalMethod method)
 }
 
 // Shi et al., A Benchmark Dataset and Evaluation for Non-Lambertian and Uncalibrated Photometric Stereo, 2019: least
-// squares has 4.10 degrees on ball and 8.39 on bear. Theirs clips observations at 1, ours does not: 0.1.
+// squares has 4.10 degrees on ball and 8.39 on bear. Theirs clips observations at 1 and takes them for data; here what
+// the sensor clipped is no data: ball, whose highlights are clipped, gains a third of a degree, bear differs by 0.1.
 TEST(DiligentDataSlow, LeastSquaresReproducesThePublishedErrors)
 {
     NACRE_REQUIRE_DATA("diligent");
-    EXPECT_NEAR(meanError("ballPNG", NormalMethod::leastSquares), 4.10, 0.1);
+    EXPECT_NEAR(meanError("ballPNG", NormalMethod::leastSquares), 3.78, 0.1);
     EXPECT_NEAR(meanError("bearPNG", NormalMethod::leastSquares), 8.39, 0.1);
 }
 
@@ -34,8 +35,9 @@ TEST(DiligentDataSlow, RobustNormalsHoldTheirFigures)
     NACRE_REQUIRE_DATA("diligent");
     EXPECT_LE(meanError("ballPNG", NormalMethod::consensus), 1.96);
     EXPECT_LE(meanError("bearPNG", NormalMethod::consensus), 5.2);
-    EXPECT_LE(meanError("ballPNG", NormalMethod::automatic), 1.85);
-    EXPECT_LE(meanError("bearPNG", NormalMethod::automatic), 4.9);
+    EXPECT_LE(meanError("ballPNG", NormalMethod::automatic), 1.5);
+    EXPECT_LE(meanError("bearPNG", NormalMethod::automatic), 4.6);
+    EXPECT_LE(meanError("readingPNG", NormalMethod::automatic), 10.8);
 }
 
 TEST(DiligentDataSlow, TruthIsTheSameAsMatlabAndAsPicture)
