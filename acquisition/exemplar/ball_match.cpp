@@ -15,11 +15,8 @@ namespace nacre {
 
 namespace {
 
-// Residuals of roots are truncated here: 16 % of the brightness at the pixel's bright level, which calibration,
-// interreflection and noise stay below and shadows and highlights do not.
-constexpr float kTruncation = 0.08f;
-// Scales are fitted to residuals up to here.
-constexpr float kFitLimit = 1.5f * kTruncation;
+// Scales are fitted to residuals up to so many times the truncation.
+constexpr float kFitLimit = 1.5f;
 // The middling quantile is in the light if it is at least this share of the bright level.
 constexpr float kLitShare = 0.04f;
 constexpr int kAdditiveSteps = 2;
@@ -27,23 +24,23 @@ constexpr int kPolishSteps = 3;
 // A dark observation, 4 % of the bright level, is often a light that something is in front of: against a prediction
 // that is lit it costs a quarter of what others may.
 constexpr float kDarkRoot = 0.2f;
-constexpr float kDarkTruncation = kTruncation / 4;
+constexpr float kDarkShare = 0.25f;
 
-Lanes costOf(const Lanes& observed, const Lanes& residual)
+Lanes costOf(const Lanes& observed, const Lanes& residual, float truncation)
 {
-    const Lanes truncation = observed < kDarkRoot ? allLanes(kDarkTruncation) : allLanes(kTruncation);
-    return residual < truncation ? residual : truncation;
+    const Lanes most = observed < kDarkRoot ? allLanes(kDarkShare * truncation) : allLanes(truncation);
+    return residual < most ? residual : most;
 }
 
 // g = root * column: one reweighted step from the root given. Observations that are no number take no part.
 NACRE_VECTOR_CLONES
-void matchRoots(const float* observed, const float* column, size_t stride, float lowRoot, float highRoot, float& root,
-                float& cost)
+void matchRoots(const float* observed, const float* column, size_t stride, float lowRoot, float highRoot,
+                float truncation, float& root, float& cost)
 {
     Lanes numerator = allLanes(0), denominator = allLanes(0);
     for (size_t i = 0; i < stride; i += kLanes) {
         const Lanes c = lanesAt(column + i), g = lanesAt(observed + i);
-        const auto isNear = absolute(g - root * c) < kFitLimit;
+        const auto isNear = absolute(g - root * c) < kFitLimit * truncation;
         numerator += isNear ? c * g : allLanes(0);
         denominator += isNear ? c * c : allLanes(0);
     }
@@ -52,7 +49,7 @@ void matchRoots(const float* observed, const float* column, size_t stride, float
     Lanes costs = allLanes(0);
     for (size_t i = 0; i < stride; i += kLanes) {
         const Lanes g = lanesAt(observed + i);
-        costs += costOf(g, absolute(g - root * lanesAt(column + i)));
+        costs += costOf(g, absolute(g - root * lanesAt(column + i)), truncation);
     }
     cost = sumOf(costs);
 }
@@ -67,7 +64,7 @@ Lanes glossyPrediction(const float* diffuse, const float* gloss, float scale, fl
 // g = sqrt(scale diffuse + gloss / bright): Gauss-Newton steps in the scale, d sqrt(p) / d scale = diffuse / 2 sqrt(p).
 NACRE_VECTOR_CLONES
 void matchGlossy(const float* observed, const float* diffuse, const float* gloss, size_t stride, float inverseBright,
-                 float low, float high, float& scale, float& cost)
+                 float low, float high, float truncation, float& scale, float& cost)
 {
     for (int step = 0; step < kAdditiveSteps; ++step) {
         Lanes numerator = allLanes(0), denominator = allLanes(0);
@@ -75,7 +72,7 @@ void matchGlossy(const float* observed, const float* diffuse, const float* gloss
             const Lanes root = rootOf(glossyPrediction(diffuse + i, gloss + i, scale, inverseBright));
             const Lanes residual = lanesAt(observed + i) - root;
             const Lanes slope = lanesAt(diffuse + i) / (2 * root + 1e-6f);
-            const auto isNear = absolute(residual) < kFitLimit;
+            const auto isNear = absolute(residual) < kFitLimit * truncation;
             numerator += isNear ? slope * residual : allLanes(0);
             denominator += isNear ? slope * slope : allLanes(0);
         }
@@ -88,7 +85,8 @@ void matchGlossy(const float* observed, const float* diffuse, const float* gloss
     Lanes costs = allLanes(0);
     for (size_t i = 0; i < stride; i += kLanes) {
         const Lanes g = lanesAt(observed + i);
-        costs += costOf(g, absolute(g - rootOf(glossyPrediction(diffuse + i, gloss + i, scale, inverseBright))));
+        costs +=
+            costOf(g, absolute(g - rootOf(glossyPrediction(diffuse + i, gloss + i, scale, inverseBright))), truncation);
     }
     cost = sumOf(costs);
 }
@@ -162,22 +160,22 @@ struct StepEquations {
 };
 
 StepEquations equationsAt(const BallCell& cell, bool additive, const float* observed, size_t lights, float scale,
-                          float inverseBright)
+                          float inverseBright, float truncation)
 {
     StepEquations equations;
     for (size_t i = 0; i < lights; ++i) {
         const Prediction predicted = predictRoot(cell, additive, i, scale, inverseBright);
         const float residual = observed[i] - predicted.root, size = std::abs(residual);
-        const float truncation = observed[i] < kDarkRoot ? kDarkTruncation : kTruncation;
-        equations.cost += size < truncation ? size : truncation;
-        if (!(size < kFitLimit)) {
+        const float most = observed[i] < kDarkRoot ? kDarkShare * truncation : truncation;
+        equations.cost += size < most ? size : most;
+        if (!(size < kFitLimit * truncation)) {
             continue;
         }
-        const float weight = 1 - size / kFitLimit;
+        const float weight = 1 - size / (kFitLimit * truncation);
         equations.matrix += weight * predicted.slope * predicted.slope.transpose();
         equations.right += weight * residual * predicted.slope;
     }
-    equations.cost /= kTruncation * static_cast<float>(lights);
+    equations.cost /= truncation * static_cast<float>(lights);
     return equations;
 }
 
@@ -192,7 +190,7 @@ BallMatch matchAtRow(const MatchModel& model, const PixelLattice& lattice, size_
     if (model.ball.additive) {
         match.scale = std::clamp(scale, low, high);
         matchGlossy(lattice.rootsOf(pixel), diffuse, &model.ball.gloss[row * grid.stride], grid.stride, 1 / bright, low,
-                    high, match.scale, match.cost);
+                    high, model.truncation, match.scale, match.cost);
     } else {
         if (model.ball.bright[row] <= 0) {
             return match;
@@ -202,11 +200,11 @@ BallMatch matchAtRow(const MatchModel& model, const PixelLattice& lattice, size_
         const bool isLit = middling > kLitShare && predicted > kLitShare * model.ball.bright[row];
         float root =
             std::clamp(std::sqrt(isLit ? middling / predicted : 1 / model.ball.bright[row]), lowRoot, highRoot);
-        matchRoots(lattice.rootsOf(pixel), &model.ball.roots[row * grid.stride], grid.stride, lowRoot, highRoot, root,
-                   match.cost);
+        matchRoots(lattice.rootsOf(pixel), &model.ball.roots[row * grid.stride], grid.stride, lowRoot, highRoot,
+                   model.truncation, root, match.cost);
         match.scale = root * root;
     }
-    match.cost /= kTruncation * static_cast<float>(grid.lightCount);
+    match.cost /= model.truncation * static_cast<float>(grid.lightCount);
     return match;
 }
 
@@ -222,7 +220,7 @@ BallMatch polishedMatch(const MatchModel& model, const PixelLattice& lattice, si
             break;
         }
         StepEquations equations = equationsAt(*cell, model.ball.additive, lattice.rootsOf(pixel), grid.lightCount,
-                                              current.scale, inverseBright);
+                                              current.scale, inverseBright, model.truncation);
         current.cost = equations.cost;
         if (current.cost < best.cost) {
             best = current;
@@ -262,7 +260,7 @@ BallMatch matchAtTexel(const MatchModel& model, const PixelLattice& lattice, siz
     const float inverseBright = 1 / lattice.bright[pixel];
     for (int step = 0; step <= kPolishSteps && cell && match.scale > 0; ++step) {
         const StepEquations equations = equationsAt(*cell, model.ball.additive, lattice.rootsOf(pixel), grid.lightCount,
-                                                    match.scale, inverseBright);
+                                                    match.scale, inverseBright, model.truncation);
         match.cost = equations.cost;
         if (step < kPolishSteps && equations.matrix(2, 2) > 0) {
             match.scale = std::clamp(match.scale + equations.right.z() / equations.matrix(2, 2),

@@ -22,11 +22,16 @@ struct AlbedoRange {
     float high = 1e30f;
 };
 
+// Residuals of roots are truncated at least here: 16 % of the brightness at the pixel's bright level, which
+// calibration, interreflection and noise mostly stay below and shadows and highlights do not.
+constexpr float kLeastTruncation = 0.08f;
+
 // A reflectance that pixels are matched with.
 struct MatchModel {
     Reflectance reflectance;
     ReflectanceBall ball;
     AlbedoRange albedos;
+    float truncation = kLeastTruncation;
 };
 
 // The match at a row of the ball, its scale fitted from `scale` on.

@@ -58,6 +58,7 @@ struct ExemplarSetup {
 ExemplarSetup makeSetup(ExemplarModel model, const std::vector<Light>& lights, const NormalOptions& options)
 {
     MatchModel lambert;
+    lambert.truncation = model.match.truncation;
     lambert.ball = makeReflectanceBall(*model.grid, lambert.reflectance, options.threads);
     const float doubtful = kDoubtful * model.typicalCost;
     return {lights,   std::move(model), std::move(lambert), makeConsensusEstimator(lights, options),

@@ -31,6 +31,9 @@ constexpr double kExponentGain = 0.05;
 constexpr double kRankWellExplained = 0.7;
 constexpr float kRankMargin = 1.5f;
 constexpr size_t kSearchedWidePerTask = 16;
+// Residuals are truncated at so many times what the start leaves of them in the mean.
+constexpr float kTruncationFactor = 3;
+constexpr float kLargestTruncation = 0.16f;
 
 const std::vector<int> kWideSteps{16, 8, 4, 2};
 
@@ -199,6 +202,10 @@ Hypothesis knownStart(const Bench& bench, const NormalOptions& options)
     Hypothesis hypothesis{known.name, modelOf(bench.grid, known.reflectance, bench.threads), matchesAt(texels), 0};
     hypothesis.model.albedos = albedos;
     search(bench, kSweeps, hypothesis);
+    // Noise in dim pixels leaves residuals beyond the least truncation, where they would tell nothing any more.
+    const float residual = static_cast<float>(hypothesis.cost) * hypothesis.model.truncation;
+    hypothesis.model.truncation = std::clamp(kTruncationFactor * residual, kLeastTruncation, kLargestTruncation);
+    forgetCosts(hypothesis.matches);
     return hypothesis;
 }
 
