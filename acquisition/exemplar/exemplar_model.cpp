@@ -28,6 +28,9 @@ const std::vector<int> kFineSteps{16, 8, 4, 8, 4, 2, 1};
 constexpr std::array<glm::ivec2, 9> kSquares{glm::ivec2(0, 0), {1, 0},  {-1, 0}, {0, 1},  {0, -1},
                                              {1, 1},           {-1, 1}, {1, -1}, {-1, -1}};
 constexpr size_t kMatchedPerTask = 256;
+// A match that costs so many times the typical one is sought again from texels so far apart all over the ball.
+constexpr float kFarCost = 3;
+constexpr int kFarStep = 8;
 
 struct CoarserLevel {
     PixelLattice lattice;
@@ -156,11 +159,23 @@ int latticePixel(const ExemplarModel& model, int x, int y)
     return model.nearest[static_cast<size_t>(v) * lattice.width + u];
 }
 
+std::vector<glm::vec2> texelsEverywhere(int size)
+{
+    std::vector<glm::vec2> texels;
+    for (int y = kFarStep / 2; y < size; y += kFarStep) {
+        for (int x = kFarStep / 2; x < size; x += kFarStep) {
+            texels.emplace_back(x, y);
+        }
+    }
+    return texels;
+}
+
 } // namespace
 
 std::vector<BallMatch> matchPixels(const ExemplarModel& model, const PixelLattice& pixels, int threads)
 {
     const PixelLattice& lattice = model.lattice;
+    const std::vector<glm::vec2> everywhere = texelsEverywhere(model.grid->size);
     std::vector<BallMatch> matches(pixels.pixelCount());
     parallelFor(matches.size(), kMatchedPerTask, threads, [&](size_t first, size_t last) {
         std::vector<BallMatch> candidates;
@@ -174,6 +189,14 @@ std::vector<BallMatch> matchPixels(const ExemplarModel& model, const PixelLattic
                 candidates.back().scale *= lattice.bright[near] / pixels.bright[p];
             }
             matches[p] = bestMatch(model.match, pixels, p, candidates, kFineSteps);
+            if (matches[p].cost > kFarCost * model.typicalCost) {
+                candidates.assign(1, matches[p]);
+                for (const glm::vec2& texel : everywhere) {
+                    candidates.push_back({texel, matches[p].scale, 2, -1});
+                }
+                const BallMatch far = bestMatch(model.match, pixels, p, candidates, kFineSteps);
+                matches[p] = far.cost < matches[p].cost ? far : matches[p];
+            }
         }
     });
     return matches;
