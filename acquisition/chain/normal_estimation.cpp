@@ -127,9 +127,8 @@ void storeNormals(const Observations& block, const NormalBlock& normals, bool ke
         estimate.normals.normals[block.pixels[p]] = pixel.confidence > 0 ? pixel.normal : glm::vec3(0);
         estimate.normals.confidence[block.pixels[p]] = pixel.confidence;
         const auto verdicts = std::span(normals.verdicts).subspan(p * n, n);
-        const bool isShaded = std::count(verdicts.begin(), verdicts.end(), Verdict::used) < kFewestLit;
         estimate.pixelsWithoutNormal += pixel.confidence <= 0;
-        estimate.pixelsInShade += pixel.confidence <= 0 && isShaded;
+        estimate.pixelsInShade += std::count(verdicts.begin(), verdicts.end(), Verdict::used) < kFewestLit;
         for (size_t i = 0; i < n; ++i) {
             VerdictCounts& counts = estimate.verdicts[i];
             switch (normals.verdicts[p * n + i]) {

@@ -20,7 +20,7 @@ struct NormalEstimate {
     NormalReport report;
     std::vector<std::string> leftOut;    // photographs that disagree with the rest, by name
     size_t pixelsWithoutNormal = 0;      // of the mask
-    size_t pixelsInShade = 0;            // of these the ones that fewer than three lights reach
+    size_t pixelsInShade = 0;            // that fewer than three lights reach
     size_t pixelsSmoothed = 0;           // of the capture's marked ones
     std::vector<VerdictCounts> verdicts; // per light
     std::vector<uint32_t> pixels;        // of the mask, and

@@ -94,7 +94,7 @@ std::vector<FacingRatios> gatherRatios(const Observations& sample, const NormalB
         }
         for (size_t i = 0; i < lights.size(); ++i) {
             const float nDotL = glm::dot(pixel.normal, lights[i].direction);
-            if (squares > 0 && nDotL >= kLeastRefinedCosine) {
+            if (squares > 0 && nDotL >= kLeastRefinedCosine && verdicts[i] != Verdict::saturated) {
                 const glm::vec3 seen = radiance[i] / lights[i].irradiance;
                 (verdicts[i] == Verdict::shadow ? ratios[i].shadowed : ratios[i].lit)
                     .add(seen * squares / (sum * nDotL), greyOf(seen) * squares / (greyOf(sum) * nDotL));
@@ -195,7 +195,7 @@ Eigen::MatrixXd responseOf(const NormalBlock& normals, const std::vector<Light>&
             const glm::vec3& l = lights[i].direction;
             const double cosine = glm::dot(normals.pixels[p].normal, l);
             const Verdict verdict = normals.verdicts[p * n + i];
-            if (cosine > 0 && verdict != Verdict::shadow) {
+            if (cosine > 0 && verdict != Verdict::shadow && verdict != Verdict::saturated) {
                 weights(i) += cosine * cosine;
             }
             if (cosine > 0 && verdict == Verdict::used) {

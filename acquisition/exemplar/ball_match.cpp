@@ -10,6 +10,7 @@
 #include <glm/geometric.hpp>
 
 #include "acquisition/normals/lanes.h"
+#include "engine/files/measures.h"
 
 namespace nacre {
 
@@ -279,6 +280,31 @@ void predictMatch(const MatchModel& model, const BallMatch& match, float bright,
         const float root = cell ? predictRoot(*cell, model.ball.additive, i, match.scale, 1 / bright).root : 0.0f;
         predicted[i] = root * root * bright;
     }
+}
+
+void forgetCosts(std::vector<BallMatch>& matches)
+{
+    for (BallMatch& match : matches) {
+        match.cost = 2;
+    }
+}
+
+double meanCost(const std::vector<BallMatch>& matches)
+{
+    double sum = 0;
+    for (const BallMatch& match : matches) {
+        sum += std::min(1.0f, match.cost);
+    }
+    return sum / static_cast<double>(std::max<size_t>(1, matches.size()));
+}
+
+float medianCost(const std::vector<BallMatch>& matches)
+{
+    std::vector<float> costs;
+    for (const BallMatch& match : matches) {
+        costs.push_back(match.cost);
+    }
+    return costs.empty() ? 1.0f : quantile(costs, 0.5);
 }
 
 } // namespace nacre

@@ -1,4 +1,6 @@
 #pragma once
+#include <vector>
+
 #include <glm/vec2.hpp>
 
 #include "acquisition/exemplar/pixel_lattice.h"
@@ -47,5 +49,11 @@ BallMatch matchAtTexel(const MatchModel& model, const PixelLattice& lattice, siz
 
 // What the match predicts of every light, on the scale of the intensities. `predicted` has lightCount floats.
 void predictMatch(const MatchModel& model, const BallMatch& match, float bright, float* predicted);
+
+// After the reflectance has changed: places and scales stay, costs are not known.
+void forgetCosts(std::vector<BallMatch>& matches);
+
+double meanCost(const std::vector<BallMatch>& matches);
+float medianCost(const std::vector<BallMatch>& matches);
 
 } // namespace nacre

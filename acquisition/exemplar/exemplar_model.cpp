@@ -9,7 +9,6 @@
 
 #include "acquisition/exemplar/exemplar_hypotheses.h"
 #include "acquisition/exemplar/reflectance_fit.h"
-#include "engine/files/measures.h"
 #include "engine/files/parallel_for.h"
 
 namespace nacre {
@@ -61,15 +60,6 @@ std::vector<BallMatch> inherited(const PixelLattice& fine, const CoarserLevel& c
         result.push_back({parent.texel, parent.scale * coarse.lattice.bright[square] / fine.bright[p], 2, parent.row});
     }
     return result;
-}
-
-float medianCost(const std::vector<BallMatch>& matches)
-{
-    std::vector<float> costs;
-    for (const BallMatch& match : matches) {
-        costs.push_back(match.cost);
-    }
-    return costs.empty() ? 1.0f : quantile(costs, 0.5);
 }
 
 // Normals and the object's reflectance in turn, from where they are. Answers the matches' median cost.
@@ -126,6 +116,7 @@ ExemplarModel makeExemplarModel(const Intensities& sample, const std::vector<Lig
     Hypothesis best = bestHypothesis(
         makeHypotheses(jury ? jury->grid : *model.grid, coarsest, jury ? jury->split.keptLights : lights, options),
         coarsest, jury, options.threads, findings);
+    model.typicalCost = medianCost(best.matches);
     for (size_t level = levels.size(); level-- > 0;) {
         const PixelLattice& fine = level > 0 ? levels[level - 1].lattice : seen;
         best.matches = inherited(fine, levels[level], best.matches);
@@ -139,9 +130,6 @@ ExemplarModel makeExemplarModel(const Intensities& sample, const std::vector<Lig
             best.matches[p].scale *= seen.bright[p] / model.lattice.bright[p];
         }
         model.typicalCost = improve(model.lattice, options.threads, best.model, best.matches);
-    }
-    if (!jury && levels.empty()) {
-        model.typicalCost = medianCost(best.matches);
     }
     model.match = std::move(best.model);
     model.matches = std::move(best.matches);

@@ -124,20 +124,4 @@ void polishMatches(const MatchModel& model, const PixelLattice& lattice, int thr
     });
 }
 
-void forgetCosts(std::vector<BallMatch>& matches)
-{
-    for (BallMatch& match : matches) {
-        match.cost = 2;
-    }
-}
-
-double meanCost(const std::vector<BallMatch>& matches)
-{
-    double sum = 0;
-    for (const BallMatch& match : matches) {
-        sum += std::min(1.0f, match.cost);
-    }
-    return sum / static_cast<double>(std::max<size_t>(1, matches.size()));
-}
-
 } // namespace nacre

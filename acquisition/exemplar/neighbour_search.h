@@ -22,9 +22,4 @@ BallMatch bestMatch(const MatchModel& model, const PixelLattice& lattice, size_t
 
 void polishMatches(const MatchModel& model, const PixelLattice& lattice, int threads, std::vector<BallMatch>& matches);
 
-// After the reflectance has changed: places and scales stay, costs are not known.
-void forgetCosts(std::vector<BallMatch>& matches);
-
-double meanCost(const std::vector<BallMatch>& matches);
-
 } // namespace nacre

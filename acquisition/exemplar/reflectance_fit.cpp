@@ -316,9 +316,7 @@ void refitModel(const PixelLattice& lattice, bool additive, int threads, MatchMo
     const BallGrid& grid = *model.ball.grid;
     fitReflectance(lattice, additive, model, matches);
     model.ball = makeReflectanceBall(grid, model.reflectance, threads);
-    for (BallMatch& match : matches) {
-        match.cost = 2;
-    }
+    forgetCosts(matches);
 }
 
 } // namespace nacre

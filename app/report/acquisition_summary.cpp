@@ -208,7 +208,7 @@ std::string describe(const std::vector<StageTime>& times)
 std::string describeNormals(const Capture& capture, const NormalEstimate& estimate)
 {
     std::string text =
-        fmt::format("\nnormals      {} by {}, {} pixels without one ({} of them lit by fewer than three lights)\n",
+        fmt::format("\nnormals      {} by {}, {} pixels without one, {} lit by fewer than three lights\n",
                     capture.maskPixels - estimate.pixelsWithoutNormal, nameOf(estimate.report.method),
                     estimate.pixelsWithoutNormal, estimate.pixelsInShade);
     for (const Finding& finding : estimate.report.findings) {

@@ -106,6 +106,37 @@ TEST(Normals, SameBytesForOneAndTwoThreadsByEveryMethod)
     }
 }
 
+TEST(Normals, WhatTheSensorClippedIsLookedAtByNoMethod)
+{
+    const std::vector<Light> lights = ringOfLights(18);
+    std::vector<glm::vec3> truth;
+    Observations dim = lambertianSphere(lights, 32, truth, 0.4f);
+    for (size_t i = 0; i < dim.saturated.size(); ++i) {
+        dim.saturated[i] = i * 7 % 11 == 0;
+    }
+    Observations bright = dim;
+    for (size_t i = 0; i < bright.saturated.size(); ++i) {
+        bright.radiance[i] *= bright.saturated[i] ? 5.0f : 1.0f;
+    }
+    for (const char* method : {"least-squares", "threshold", "two-step", "ransac", "consensus", "exemplar", "auto"}) {
+        NormalOptions options;
+        options.method = normalMethodFromName(method);
+        const auto estimate = [&](const Observations& block) {
+            const Intensities intensities = intensitiesOf(block, lights);
+            NormalReport report;
+            return makeNormalEstimator(intensities, lights, options, report)(intensities);
+        };
+        const NormalBlock a = estimate(dim), b = estimate(bright);
+        EXPECT_EQ(a.verdicts, b.verdicts) << method;
+        for (size_t p = 0; p < a.pixels.size(); ++p) {
+            EXPECT_EQ(a.pixels[p].normal, b.pixels[p].normal) << method;
+        }
+        for (size_t i = 0; i < a.verdicts.size(); ++i) {
+            EXPECT_EQ(a.verdicts[i] == Verdict::saturated, dim.saturated[i] != 0) << method;
+        }
+    }
+}
+
 // Highlights on `tenths` of the lights and shadows on as many, other lights at every pixel.
 void spoil(Intensities& intensities, size_t tenths)
 {
