@@ -9,7 +9,7 @@
 #include <Eigen/Core>
 #include <glm/geometric.hpp>
 
-#include "acquisition/normals/lanes.h"
+#include "engine/files/lanes.h"
 #include "engine/files/measures.h"
 
 namespace nacre {

@@ -10,8 +10,8 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
-#include "acquisition/normals/lanes.h"
 #include "engine/files/hash_random.h"
+#include "engine/files/lanes.h"
 #include "engine/files/parallel_for.h"
 
 namespace nacre {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cassert>
 #include <cmath>
 #include <limits>
@@ -9,6 +10,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "engine/files/lanes.h"
 #include "engine/files/parallel_for.h"
 
 namespace nacre {
@@ -45,6 +47,56 @@ double psnrOfClipped(const Image& a, const Image& b, std::span<const uint8_t> ma
     return psnrFromSquaredError(sum, count);
 }
 
+constexpr size_t kFewValues = 512;
+
+// Whole numbers in the order of the floats whose bits they are, and back: negative ones fall as their bits rise.
+int32_t orderedBits(int32_t bits)
+{
+    return bits >= 0 ? bits : bits ^ std::numeric_limits<int32_t>::max();
+}
+
+// Two neighbouring order statistics of at most kFewValues; the last one's neighbour is itself. Bisection on the bits of
+// a float: the statistic of rank k, from 0, is the largest f that no more than k values are less than. Counting runs
+// lane by lane, which takes less than half the time of moving values about.
+NACRE_VECTOR_CLONES
+void orderStatistics(const std::vector<float>& values, size_t rank, float& first, float& second)
+{
+    alignas(32) float padded[kFewValues];
+    const size_t stride = (values.size() + kLanes - 1) / kLanes * kLanes;
+    std::copy(values.begin(), values.end(), padded);
+    std::fill(padded + values.size(), padded + stride, values.front());
+    Lanes least = lanesAt(padded), most = least;
+    for (size_t i = kLanes; i < stride; i += kLanes) {
+        least = lanesAt(padded + i) < least ? lanesAt(padded + i) : least;
+        most = lanesAt(padded + i) > most ? lanesAt(padded + i) : most;
+    }
+    std::fill(padded + values.size(), padded + stride, std::numeric_limits<float>::infinity());
+    int64_t low = orderedBits(std::bit_cast<int32_t>(leastOf(least))),
+            high = orderedBits(std::bit_cast<int32_t>(-leastOf(-most)));
+    while (low < high) {
+        const int64_t middle = low + (high - low + 1) / 2;
+        const float limit = std::bit_cast<float>(orderedBits(static_cast<int32_t>(middle)));
+        LaneCounts below = {};
+        for (size_t i = 0; i < stride; i += kLanes) {
+            below -= lanesAt(padded + i) < limit;
+        }
+        const bool isLow = static_cast<size_t>(sumOf(below)) <= rank;
+        low = isLow ? middle : low;
+        high = isLow ? high : middle - 1;
+    }
+    first = std::bit_cast<float>(orderedBits(static_cast<int32_t>(low)));
+    const Lanes none = allLanes(std::numeric_limits<float>::infinity());
+    Lanes next = none;
+    LaneCounts upTo = {};
+    for (size_t i = 0; i < stride; i += kLanes) {
+        const Lanes value = lanesAt(padded + i), above = value > first ? value : none;
+        upTo -= value <= first;
+        next = above < next ? above : next;
+    }
+    const bool isShared = static_cast<size_t>(sumOf(upTo)) > rank + 1 || rank + 1 == values.size();
+    second = isShared ? first : leastOf(next);
+}
+
 } // namespace
 
 float quantile(std::vector<float>& values, double q)
@@ -52,6 +104,11 @@ float quantile(std::vector<float>& values, double q)
     assert(!values.empty());
     const double position = q * static_cast<double>(values.size() - 1);
     const size_t low = static_cast<size_t>(position);
+    if (values.size() <= kFewValues) {
+        float first, second;
+        orderStatistics(values, low, first, second);
+        return first + static_cast<float>(position - static_cast<double>(low)) * (second - first);
+    }
     std::nth_element(values.begin(), values.begin() + low, values.end());
     const float first = values[low];
     if (low + 1 == values.size()) {

@@ -1,9 +1,11 @@
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
+#include "engine/files/hash_random.h"
 #include "engine/files/measures.h"
 
 namespace nacre {
@@ -40,6 +42,31 @@ TEST(Measures, QuantileInterpolates)
     EXPECT_FLOAT_EQ(quantile(values, 0), 1);
     EXPECT_FLOAT_EQ(quantile(values, 1), 4);
     EXPECT_FLOAT_EQ(quantile(values, 0.9), 3.7f);
+}
+
+// Few values are counted lane by lane, many are moved about: both are what sorting says, with ties and signs.
+TEST(Measures, QuantileIsThatOfTheSortedValues)
+{
+    uint64_t seed = 1;
+    for (const size_t count : {1, 2, 7, 8, 9, 96, 511, 512, 513, 2000}) {
+        for (const uint64_t distinct : {uint64_t{3}, uint64_t{1000000}}) {
+            std::vector<float> values;
+            for (size_t i = 0; i < count; ++i) {
+                const float value = static_cast<float>(nextRandom(seed) % distinct) / static_cast<float>(distinct);
+                values.push_back(std::ldexp(value - 0.3f, static_cast<int>(nextRandom(seed) % 20) - 10));
+            }
+            std::vector<float> sorted = values;
+            std::sort(sorted.begin(), sorted.end());
+            for (const double q : {0.0, 0.1, 0.5, 0.9, 1.0}) {
+                const double place = q * static_cast<double>(count - 1);
+                const size_t low = static_cast<size_t>(place);
+                const float next = sorted[std::min(low + 1, count - 1)];
+                EXPECT_EQ(quantile(values, q),
+                          sorted[low] + static_cast<float>(place - static_cast<double>(low)) * (next - sorted[low]))
+                    << count << " values, q " << q;
+            }
+        }
+    }
 }
 
 TEST(Measures, AngularErrorCountsMissingNormalsAsNinetyDegrees)

@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #ifdef __SSE__
 #include <xmmintrin.h>
 #else
@@ -14,6 +15,7 @@ namespace nacre {
 // sums, so that their result does not depend on the machine's vector width.
 constexpr int kLanes = 8;
 typedef float Lanes __attribute__((vector_size(32), aligned(4), may_alias));
+typedef int LaneCounts __attribute__((vector_size(32)));
 
 inline const Lanes& lanesAt(const float* first)
 {
@@ -51,6 +53,19 @@ inline float sumOf(const Lanes& lanes)
 {
     const auto* l = reinterpret_cast<const float*>(&lanes);
     return ((l[0] + l[1]) + (l[2] + l[3])) + ((l[4] + l[5]) + (l[6] + l[7]));
+}
+
+inline float leastOf(const Lanes& lanes)
+{
+    const auto* l = reinterpret_cast<const float*>(&lanes);
+    return std::min(std::min(std::min(l[0], l[1]), std::min(l[2], l[3])),
+                    std::min(std::min(l[4], l[5]), std::min(l[6], l[7])));
+}
+
+inline int sumOf(const LaneCounts& counts)
+{
+    const auto* c = reinterpret_cast<const int*>(&counts);
+    return ((c[0] + c[1]) + (c[2] + c[3])) + ((c[4] + c[5]) + (c[6] + c[7]));
 }
 
 } // namespace nacre
