@@ -96,18 +96,27 @@ void matchGlossy(const float* observed, const float* diffuse, const float* gloss
 struct BallCell {
     std::array<const float*, 4> diffuse{}, gloss{}; // of (x, y), (x + 1, y), (x, y + 1), (x + 1, y + 1)
     float u = 0, v = 0;
-
-    static float value(const std::array<const float*, 4>& columns, size_t i, float u, float v)
-    {
-        return (1 - v) * ((1 - u) * columns[0][i] + u * columns[1][i]) +
-               v * ((1 - u) * columns[2][i] + u * columns[3][i]);
-    }
-    static glm::vec2 slope(const std::array<const float*, 4>& columns, size_t i, float u, float v)
-    {
-        return {(1 - v) * (columns[1][i] - columns[0][i]) + v * (columns[3][i] - columns[2][i]),
-                (1 - u) * (columns[2][i] - columns[0][i]) + u * (columns[3][i] - columns[1][i])};
-    }
 };
+
+// A column's values at the cell's place.
+Lanes mixed(const BallCell& cell, const std::array<const float*, 4>& columns, size_t i)
+{
+    return (1 - cell.v) * ((1 - cell.u) * lanesAt(columns[0] + i) + cell.u * lanesAt(columns[1] + i)) +
+           cell.v * ((1 - cell.u) * lanesAt(columns[2] + i) + cell.u * lanesAt(columns[3] + i));
+}
+
+// Their derivatives by x and y.
+Lanes alongX(const BallCell& cell, const std::array<const float*, 4>& columns, size_t i)
+{
+    return (1 - cell.v) * (lanesAt(columns[1] + i) - lanesAt(columns[0] + i)) +
+           cell.v * (lanesAt(columns[3] + i) - lanesAt(columns[2] + i));
+}
+
+Lanes alongY(const BallCell& cell, const std::array<const float*, 4>& columns, size_t i)
+{
+    return (1 - cell.u) * (lanesAt(columns[2] + i) - lanesAt(columns[0] + i)) +
+           cell.u * (lanesAt(columns[3] + i) - lanesAt(columns[1] + i));
+}
 
 std::optional<BallCell> findCell(const ReflectanceBall& ball, const glm::vec2& texel)
 {
@@ -128,55 +137,72 @@ std::optional<BallCell> findCell(const ReflectanceBall& ball, const glm::vec2& t
     return cell;
 }
 
-// A predicted root and its derivatives by (x, y, scale).
-struct Prediction {
-    float root;
-    Eigen::Vector3f slope;
+// Predicted roots and their derivatives by x, y and scale.
+struct RootLanes {
+    Lanes root, byX, byY, byScale;
 };
 
-Prediction predictRoot(const BallCell& cell, bool additive, size_t i, float scale, float inverseBright)
+[[gnu::always_inline]] inline RootLanes predictRoots(const BallCell& cell, bool additive, size_t i, float scale,
+                                                     float inverseBright)
 {
-    const float diffuse = BallCell::value(cell.diffuse, i, cell.u, cell.v);
-    const glm::vec2 along = BallCell::slope(cell.diffuse, i, cell.u, cell.v);
-    if (!additive) {
-        const float root = std::sqrt(scale * diffuse), half = root > 1e-4f ? 0.5f / root : 0.0f;
-        return {root, {half * scale * along.x, half * scale * along.y, half * diffuse}};
+    const Lanes diffuse = mixed(cell, cell.diffuse, i);
+    Lanes value = scale * diffuse, byX = scale * alongX(cell, cell.diffuse, i),
+          byY = scale * alongY(cell, cell.diffuse, i), byScale = diffuse;
+    if (additive) {
+        const Lanes all = value + inverseBright * mixed(cell, cell.gloss, i), least = kLeastGlossShare * value;
+        const auto isAll = all > least;
+        byX = isAll ? byX + inverseBright * alongX(cell, cell.gloss, i) : kLeastGlossShare * byX;
+        byY = isAll ? byY + inverseBright * alongY(cell, cell.gloss, i) : kLeastGlossShare * byY;
+        byScale = isAll ? byScale : kLeastGlossShare * byScale;
+        value = isAll ? all : least;
     }
-    const float gloss = inverseBright * BallCell::value(cell.gloss, i, cell.u, cell.v), matte = scale * diffuse;
-    const bool isFloor = matte + gloss < kLeastGlossShare * matte;
-    const float share = isFloor ? kLeastGlossShare : 1.0f;
-    const float value = isFloor ? kLeastGlossShare * matte : matte + gloss;
-    const glm::vec2 glossAlong =
-        isFloor ? glm::vec2(0) : inverseBright * BallCell::slope(cell.gloss, i, cell.u, cell.v);
-    const float root = std::sqrt(value), half = root > 1e-4f ? 0.5f / root : 0.0f;
-    const glm::vec2 slope = half * (share * scale * along + glossAlong);
-    return {root, {slope.x, slope.y, half * share * diffuse}};
+    const Lanes root = rootOf(value), half = root > 1e-4f ? 0.5f / root : allLanes(0);
+    return {root, half * byX, half * byY, half * byScale};
 }
 
-// The normal equations of one step, and the cost where it starts.
+// The normal equations of one step in (x, y, scale), and the cost where it starts.
 struct StepEquations {
-    Eigen::Matrix3f matrix = Eigen::Matrix3f::Zero();
-    Eigen::Vector3f right = Eigen::Vector3f::Zero();
+    Eigen::Matrix3f matrix;
+    Eigen::Vector3f right;
     float cost = 0;
 };
 
-StepEquations equationsAt(const BallCell& cell, bool additive, const float* observed, size_t lights, float scale,
-                          float inverseBright, float truncation)
+NACRE_VECTOR_CLONES
+void equationsAt(const BallCell& cell, bool additive, const float* observed, size_t stride, float scale,
+                 float inverseBright, float truncation, StepEquations& equations)
+{
+    Lanes xx = {}, xy = {}, xs = {}, yy = {}, ys = {}, ss = {}, x = {}, y = {}, s = {}, costs = {};
+    for (size_t i = 0; i < stride; i += kLanes) {
+        const RootLanes predicted = predictRoots(cell, additive, i, scale, inverseBright);
+        const Lanes g = lanesAt(observed + i), residual = g - predicted.root, size = absolute(residual);
+        costs += costOf(g, size, truncation);
+        const auto isNear = size < kFitLimit * truncation;
+        const Lanes weight = isNear ? 1 - size / (kFitLimit * truncation) : allLanes(0);
+        const Lanes weighted = isNear ? weight * residual : allLanes(0);
+        const Lanes wx = weight * predicted.byX, wy = weight * predicted.byY;
+        xx += wx * predicted.byX;
+        xy += wx * predicted.byY;
+        xs += wx * predicted.byScale;
+        yy += wy * predicted.byY;
+        ys += wy * predicted.byScale;
+        ss += weight * predicted.byScale * predicted.byScale;
+        x += weighted * predicted.byX;
+        y += weighted * predicted.byY;
+        s += weighted * predicted.byScale;
+    }
+    equations.matrix << sumOf(xx), sumOf(xy), sumOf(xs), sumOf(xy), sumOf(yy), sumOf(ys), sumOf(xs), sumOf(ys),
+        sumOf(ss);
+    equations.right << sumOf(x), sumOf(y), sumOf(s);
+    equations.cost = sumOf(costs);
+}
+
+StepEquations equationsAt(const MatchModel& model, const PixelLattice& lattice, size_t pixel, const BallCell& cell,
+                          float scale)
 {
     StepEquations equations;
-    for (size_t i = 0; i < lights; ++i) {
-        const Prediction predicted = predictRoot(cell, additive, i, scale, inverseBright);
-        const float residual = observed[i] - predicted.root, size = std::abs(residual);
-        const float most = observed[i] < kDarkRoot ? kDarkShare * truncation : truncation;
-        equations.cost += size < most ? size : most;
-        if (!(size < kFitLimit * truncation)) {
-            continue;
-        }
-        const float weight = 1 - size / (kFitLimit * truncation);
-        equations.matrix += weight * predicted.slope * predicted.slope.transpose();
-        equations.right += weight * residual * predicted.slope;
-    }
-    equations.cost /= truncation * static_cast<float>(lights);
+    equationsAt(cell, model.ball.additive, lattice.rootsOf(pixel), lattice.stride, scale, 1 / lattice.bright[pixel],
+                model.truncation, equations);
+    equations.cost /= model.truncation * static_cast<float>(lattice.lightCount);
     return equations;
 }
 
@@ -220,8 +246,7 @@ BallMatch polishedMatch(const MatchModel& model, const PixelLattice& lattice, si
         if (!cell || !(current.scale > 0)) {
             break;
         }
-        StepEquations equations = equationsAt(*cell, model.ball.additive, lattice.rootsOf(pixel), grid.lightCount,
-                                              current.scale, inverseBright, model.truncation);
+        StepEquations equations = equationsAt(model, lattice, pixel, *cell, current.scale);
         current.cost = equations.cost;
         if (current.cost < best.cost) {
             best = current;
@@ -260,8 +285,7 @@ BallMatch matchAtTexel(const MatchModel& model, const PixelLattice& lattice, siz
     const std::optional<BallCell> cell = findCell(model.ball, texel);
     const float inverseBright = 1 / lattice.bright[pixel];
     for (int step = 0; step <= kPolishSteps && cell && match.scale > 0; ++step) {
-        const StepEquations equations = equationsAt(*cell, model.ball.additive, lattice.rootsOf(pixel), grid.lightCount,
-                                                    match.scale, inverseBright, model.truncation);
+        const StepEquations equations = equationsAt(model, lattice, pixel, *cell, match.scale);
         match.cost = equations.cost;
         if (step < kPolishSteps && equations.matrix(2, 2) > 0) {
             match.scale = std::clamp(match.scale + equations.right.z() / equations.matrix(2, 2),
@@ -276,9 +300,15 @@ void predictMatch(const MatchModel& model, const BallMatch& match, float bright,
 {
     const BallGrid& grid = *model.ball.grid;
     const std::optional<BallCell> cell = findCell(model.ball, match.texel);
-    for (size_t i = 0; i < grid.lightCount; ++i) {
-        const float root = cell ? predictRoot(*cell, model.ball.additive, i, match.scale, 1 / bright).root : 0.0f;
-        predicted[i] = root * root * bright;
+    if (!cell) {
+        std::fill_n(predicted, grid.lightCount, 0.0f);
+        return;
+    }
+    for (size_t i = 0; i < grid.lightCount; i += kLanes) {
+        const Lanes root = predictRoots(*cell, model.ball.additive, i, match.scale, 1 / bright).root,
+                    values = root * root * bright;
+        std::copy_n(reinterpret_cast<const float*>(&values), std::min<size_t>(kLanes, grid.lightCount - i),
+                    predicted + i);
     }
 }
 

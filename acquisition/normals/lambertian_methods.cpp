@@ -194,14 +194,14 @@ constexpr int kRefits = 5;
 // Iteratively reweighted least squares over the lights that the current normal faces.
 PixelNormal refit(const TripleSetup& setup, std::span<const float> observed, glm::vec3 g)
 {
-    std::vector<float> weights(observed.size()), residuals;
+    std::vector<float> weights(observed.size()), predicted(observed.size()), residuals;
     PixelNormal pixel;
     for (int step = 0; step < kRefits; ++step) {
+        setup.solver.project(g, predicted);
         residuals.clear();
         for (size_t i = 0; i < observed.size(); ++i) {
-            const float predicted = glm::dot(g, setup.directions[i]);
-            if (predicted > 0 && !isClipped(observed[i])) {
-                residuals.push_back(std::abs(observed[i] - predicted));
+            if (predicted[i] > 0 && !isClipped(observed[i])) {
+                residuals.push_back(std::abs(observed[i] - predicted[i]));
             }
         }
         if (residuals.size() < 3) {
@@ -209,8 +209,8 @@ PixelNormal refit(const TripleSetup& setup, std::span<const float> observed, glm
         }
         const float cut = std::max(kCutSigmas * 1.4826f * quantile(residuals, 0.5), kLeastCutShare * glm::length(g));
         for (size_t i = 0; i < observed.size(); ++i) {
-            const float predicted = glm::dot(g, setup.directions[i]), u = (observed[i] - predicted) / cut;
-            weights[i] = predicted > 0 && std::abs(u) < 1 ? (1 - u * u) * (1 - u * u) : 0.0f;
+            const float u = (observed[i] - predicted[i]) / cut;
+            weights[i] = predicted[i] > 0 && std::abs(u) < 1 ? (1 - u * u) * (1 - u * u) : 0.0f;
         }
         const PixelNormal next = setup.solver.solve(observed, weights);
         if (next.albedo <= 0) {

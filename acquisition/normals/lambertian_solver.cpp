@@ -6,6 +6,7 @@
 #include <Eigen/Dense>
 #include <glm/geometric.hpp>
 
+#include "engine/files/lanes.h"
 #include "engine/files/parallel_for.h"
 
 namespace nacre {
@@ -34,6 +35,47 @@ bool pseudoInverse(const Eigen::Matrix3d& gram, Eigen::Matrix3d& inverse)
     return true;
 }
 
+// Of w l l^T and w l I over the observations whose weight w is above 0.
+struct WeightedSums {
+    Eigen::Matrix3d gram;
+    Eigen::Vector3d right;
+    double total = 0; // of the weights
+    size_t used = 0;
+};
+
+NACRE_VECTOR_CLONES
+WeightedSums weightedSums(const float* x, const float* y, const float* z, const float* intensities,
+                          const float* weights, size_t count)
+{
+    Lanes xx = {}, xy = {}, xz = {}, yy = {}, yz = {}, zz = {}, right[3] = {}, total = {}, used = {};
+    float lastIntensities[kLanes] = {}, lastWeights[kLanes] = {};
+    const size_t whole = count / kLanes * kLanes;
+    std::copy(intensities + whole, intensities + count, lastIntensities);
+    std::copy(weights + whole, weights + count, lastWeights);
+    for (size_t i = 0; i < count; i += kLanes) {
+        const Lanes w = lanesAt(i < whole ? weights + i : lastWeights);
+        const Lanes value = w > 0 ? lanesAt(i < whole ? intensities + i : lastIntensities) : allLanes(0);
+        const Lanes wx = w * lanesAt(x + i), wy = w * lanesAt(y + i), wz = w * lanesAt(z + i);
+        xx += wx * lanesAt(x + i);
+        xy += wx * lanesAt(y + i);
+        xz += wx * lanesAt(z + i);
+        yy += wy * lanesAt(y + i);
+        yz += wy * lanesAt(z + i);
+        zz += wz * lanesAt(z + i);
+        right[0] += wx * value;
+        right[1] += wy * value;
+        right[2] += wz * value;
+        total += w;
+        used += w > 0 ? allLanes(1) : allLanes(0);
+    }
+    WeightedSums sums;
+    sums.gram << sumOf(xx), sumOf(xy), sumOf(xz), sumOf(xy), sumOf(yy), sumOf(yz), sumOf(xz), sumOf(yz), sumOf(zz);
+    sums.right << sumOf(right[0]), sumOf(right[1]), sumOf(right[2]);
+    sums.total = sumOf(total);
+    sums.used = static_cast<size_t>(sumOf(used));
+    return sums;
+}
+
 PixelNormal normalOf(const Eigen::Vector3d& rhoN, size_t used)
 {
     PixelNormal result;
@@ -60,8 +102,15 @@ struct LambertianSolver::Decomposition {
 LambertianSolver::LambertianSolver(const std::vector<Light>& lights) : all_(std::make_unique<Decomposition>())
 {
     Eigen::MatrixXd matrix(lights.size(), 3);
+    const size_t padded = (lights.size() + kLanes - 1) / kLanes * kLanes;
+    for (std::vector<float>* component : {&x_, &y_, &z_}) {
+        component->resize(padded, 0.0f);
+    }
     for (size_t i = 0; i < lights.size(); ++i) {
         directions_.push_back(lights[i].direction);
+        x_[i] = lights[i].direction.x;
+        y_[i] = lights[i].direction.y;
+        z_[i] = lights[i].direction.z;
         matrix.row(static_cast<Eigen::Index>(i)) = eigenVector(lights[i].direction);
     }
     const Eigen::JacobiSVD<Eigen::MatrixXd> svd(matrix, Eigen::ComputeThinU | Eigen::ComputeThinV);
@@ -102,42 +151,40 @@ PixelNormal LambertianSolver::solve(std::span<const float> intensities) const
 
 PixelNormal LambertianSolver::solve(std::span<const float> intensities, std::span<const float> weights) const
 {
-    Eigen::Matrix3d gram = Eigen::Matrix3d::Zero();
-    Eigen::Vector3d right = Eigen::Vector3d::Zero();
-    size_t used = 0;
-    double total = 0;
-    for (size_t i = 0; i < intensities.size(); ++i) {
-        if (weights[i] > 0) {
-            const Eigen::Vector3d l = eigenVector(directions_[i]);
-            gram += weights[i] * l * l.transpose();
-            right += weights[i] * l * intensities[i];
-            total += weights[i];
-            ++used;
-        }
-    }
+    const WeightedSums sums =
+        weightedSums(x_.data(), y_.data(), z_.data(), intensities.data(), weights.data(), intensities.size());
     Eigen::Matrix3d inverse;
-    if (used < 3 || !pseudoInverse(gram, inverse)) {
+    if (sums.used < 3 || !pseudoInverse(sums.gram, inverse)) {
         return PixelNormal{};
     }
-    const Eigen::Vector3d rhoN = inverse * right;
-    PixelNormal pixel = normalOf(rhoN, used);
+    const Eigen::Vector3d rhoN = inverse * sums.right;
+    PixelNormal pixel = normalOf(rhoN, sums.used);
+    const glm::vec3 g(rhoN.x(), rhoN.y(), rhoN.z());
     double squares = 0;
     for (size_t i = 0; i < intensities.size(); ++i) {
         if (weights[i] > 0) {
-            const double r = intensities[i] - rhoN.dot(eigenVector(directions_[i]));
+            const double r = intensities[i] - glm::dot(g, directions_[i]);
             squares += weights[i] * r * r;
         }
     }
-    const double freedom = std::max(1.0, static_cast<double>(used) - 3) * total / static_cast<double>(used);
+    const double used = static_cast<double>(sums.used), freedom = std::max(1.0, used - 3) * sums.total / used;
     pixel.confidence *= confidenceOf(normalUncertainty(static_cast<float>(std::sqrt(squares / freedom)), pixel.albedo,
                                                        static_cast<float>(inverse.trace())));
     return pixel;
 }
 
+void LambertianSolver::project(const glm::vec3& v, std::span<float> dots) const
+{
+    for (size_t i = 0; i < dots.size(); ++i) {
+        dots[i] = v.x * x_[i] + v.y * y_[i] + v.z * z_[i];
+    }
+}
+
 void LambertianSolver::predict(const PixelNormal& pixel, std::span<float> predicted) const
 {
-    for (size_t i = 0; i < predicted.size(); ++i) {
-        predicted[i] = pixel.albedo * std::max(0.0f, glm::dot(pixel.normal, directions_[i]));
+    project(pixel.albedo * pixel.normal, predicted);
+    for (float& value : predicted) {
+        value = std::max(0.0f, value);
     }
 }
 

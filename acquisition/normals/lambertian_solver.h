@@ -19,6 +19,8 @@ public:
     PixelNormal solve(std::span<const float> intensities) const;
     // Observations weigh `weights` >= 0 each.
     PixelNormal solve(std::span<const float> intensities, std::span<const float> weights) const;
+    // v.l per light.
+    void project(const glm::vec3& v, std::span<float> dots) const;
     // rho max(0, n.l) per light.
     void predict(const PixelNormal& pixel, std::span<float> predicted) const;
 
@@ -26,6 +28,7 @@ private:
     struct Decomposition;
     std::unique_ptr<Decomposition> all_;
     std::vector<glm::vec3> directions_;
+    std::vector<float> x_, y_, z_; // of them, padded with zeros to whole lanes
 };
 
 // Fills a block pixel by pixel with `solve(pixel, intensities)` and judges its observations by the Lambertian
