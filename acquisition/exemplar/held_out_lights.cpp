@@ -34,7 +34,7 @@ void measureReflectance(const Jury& jury, bool additive, int threads, MatchModel
             }
         });
         if (round < kJuryRounds) {
-            fitReflectance(jury.kept, additive, model, matches);
+            fitReflectance(jury.kept, additive, threads, model, matches);
             model.ball = makeReflectanceBall(jury.grid, model.reflectance, threads);
         }
     }

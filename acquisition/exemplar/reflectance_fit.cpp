@@ -11,6 +11,7 @@
 #include <glm/trigonometric.hpp>
 
 #include "engine/files/measures.h"
+#include "engine/files/parallel_for.h"
 
 namespace nacre {
 
@@ -34,6 +35,7 @@ constexpr double kLobeStiffness = 0.3;
 constexpr int kShadeRounds = 4;
 constexpr int kFewestInAnchor = 3;
 constexpr float kLeastValue = 1e-6f;
+constexpr size_t kFittedPerTask = 64, kBinsPerTask = 4;
 // The unit of asinh, which is linear below and logarithmic beyond: this share of the median albedo.
 constexpr float kGlossUnit = 0.1f;
 // Albedos of the well explained pixels, and what is added to them.
@@ -44,6 +46,7 @@ constexpr float kAlbedoMargin = 1.5f;
 struct FitSample {
     int bin;
     float value;
+    float logOverAlbedo; // of value / scale
     float scale;
     float bright;
     float cosine; // and weight
@@ -51,63 +54,81 @@ struct FitSample {
 
 using WeightedValues = std::vector<std::pair<float, float>>;
 
+// The least value that no less than half of the weight is at or below. By halves: the one that holds it is split on.
 float weightedMedian(WeightedValues& values)
 {
     if (values.empty()) {
         return 0;
     }
-    std::sort(values.begin(), values.end());
-    double half = 0, sum = 0;
+    double missing = 0;
     for (const auto& [value, weight] : values) {
-        half += weight / 2;
+        missing += weight / 2;
     }
-    for (const auto& [value, weight] : values) {
-        sum += weight;
-        if (sum >= half) {
-            return value;
+    auto first = values.begin(), last = values.end();
+    while (last - first > 1) {
+        const auto middle = first + (last - first) / 2;
+        std::nth_element(first, middle, last);
+        double below = 0;
+        for (auto each = first; each != middle; ++each) {
+            below += each->second;
+        }
+        if (below >= missing) {
+            last = middle;
+        } else {
+            missing -= below;
+            first = middle;
         }
     }
-    return values.back().first;
+    return first->first;
+}
+
+void addSamples(const PixelLattice& lattice, const MatchModel& model, const BallMatch& match, size_t pixel,
+                std::vector<FitSample>& samples)
+{
+    const BallGrid& grid = *model.ball.grid;
+    const glm::vec3 normal = normalOfBallTexel(match.texel, grid.size);
+    const float bright = lattice.bright[pixel];
+    std::vector<float> predicted(lattice.lightCount);
+    predictMatch(model, match, bright, predicted.data());
+    for (size_t i = 0; i < lattice.lightCount; ++i) {
+        const float cosine = glm::dot(normal, grid.directions[i]), root = lattice.rootsOf(pixel)[i],
+                    observed = root * root;
+        if (isClipped(observed) || cosine < kLeastFitCosine || observed * bright < kLitFitShare * predicted[i]) {
+            continue;
+        }
+        const int half = std::min(static_cast<int>(halfBinOf(glm::dot(normal, grid.halves[i]))), kHalfBins - 1),
+                  difference = std::min(static_cast<int>(differenceBinOf(grid.halves[i].z, grid.largestThetaD)),
+                                        kDifferenceBins - 1);
+        const float value = observed / cosine;
+        samples.push_back({half * kDifferenceBins + difference, value,
+                           std::log(std::max(kLeastValue, value / match.scale)), match.scale, bright, cosine});
+    }
 }
 
 std::vector<FitSample> fitSamples(const PixelLattice& lattice, const MatchModel& model,
-                                  const std::vector<BallMatch>& matches)
+                                  const std::vector<BallMatch>& matches, int threads)
 {
-    const BallGrid& grid = *model.ball.grid;
     std::vector<float> costs;
     for (const BallMatch& match : matches) {
         costs.push_back(match.cost);
     }
     const float worst = quantile(costs, kPixelsWithSay);
     const size_t step = std::max<size_t>(1, matches.size() * lattice.lightCount / kMostFitted);
-    std::vector<FitSample> samples;
-    std::vector<float> predicted(lattice.lightCount);
-    for (size_t p = 0; p < matches.size(); p += step) {
-        if (matches[p].cost > worst || matches[p].row < 0 || !(matches[p].scale > 0)) {
-            continue;
-        }
-        const glm::vec3 normal = normalOfBallTexel(matches[p].texel, grid.size);
-        predictMatch(model, matches[p], lattice.bright[p], predicted.data());
-        for (size_t i = 0; i < lattice.lightCount; ++i) {
-            const float cosine = glm::dot(normal, grid.directions[i]), root = lattice.rootsOf(p)[i],
-                        observed = root * root;
-            if (isClipped(observed) || cosine < kLeastFitCosine ||
-                observed * lattice.bright[p] < kLitFitShare * predicted[i]) {
-                continue;
+    const size_t count = (matches.size() + step - 1) / step, tasks = (count + kFittedPerTask - 1) / kFittedPerTask;
+    std::vector<std::vector<FitSample>> parts(tasks);
+    parallelFor(count, kFittedPerTask, threads, [&](size_t first, size_t last) {
+        for (size_t k = first; k < last; ++k) {
+            const size_t p = k * step;
+            if (matches[p].cost <= worst && matches[p].row >= 0 && matches[p].scale > 0) {
+                addSamples(lattice, model, matches[p], p, parts[first / kFittedPerTask]);
             }
-            const int half = std::min(static_cast<int>(halfBinOf(glm::dot(normal, grid.halves[i]))), kHalfBins - 1),
-                      difference = std::min(static_cast<int>(differenceBinOf(grid.halves[i].z, grid.largestThetaD)),
-                                            kDifferenceBins - 1);
-            samples.push_back(
-                {half * kDifferenceBins + difference, observed / cosine, matches[p].scale, lattice.bright[p], cosine});
         }
+    });
+    std::vector<FitSample> samples;
+    for (const std::vector<FitSample>& part : parts) {
+        samples.insert(samples.end(), part.begin(), part.end());
     }
     return samples;
-}
-
-float logOverAlbedo(const FitSample& sample)
-{
-    return std::log(std::max(kLeastValue, sample.value / sample.scale));
 }
 
 // Bins with their values and weights, holes and noise bridged: second differences along thetaH, first along thetaD.
@@ -141,12 +162,14 @@ std::vector<float> smoothLobe(const std::vector<float>& values, const std::vecto
     return result;
 }
 
-std::vector<float> medians(std::vector<WeightedValues>& bins)
+std::vector<float> medians(std::vector<WeightedValues>& bins, int threads)
 {
-    std::vector<float> result;
-    for (WeightedValues& bin : bins) {
-        result.push_back(weightedMedian(bin));
-    }
+    std::vector<float> result(bins.size());
+    parallelFor(bins.size(), kBinsPerTask, threads, [&](size_t first, size_t last) {
+        for (size_t bin = first; bin < last; ++bin) {
+            result[bin] = weightedMedian(bins[bin]);
+        }
+    });
     return result;
 }
 
@@ -166,15 +189,16 @@ bool isDiffuse(int bin)
 }
 
 // u from the residuals of its knots, 0 at n.l = 0.8; answers what was there.
-float fitShade(std::array<WeightedValues, kShadeKnots>& knots, Reflectance& reflectance)
+float fitShade(std::vector<WeightedValues>& knots, int threads, Reflectance& reflectance)
 {
+    const std::vector<float> levels = medians(knots, threads);
     Eigen::Matrix<double, kShadeKnots, kShadeKnots> matrix = Eigen::Matrix<double, kShadeKnots, kShadeKnots>::Zero();
     Eigen::Matrix<double, kShadeKnots, 1> right = Eigen::Matrix<double, kShadeKnots, 1>::Zero();
     for (int k = 0; k < kShadeKnots; ++k) {
         const double count = static_cast<double>(knots[k].size());
         const double weight = count / (count + kHalfCountedShade) + 1e-4;
         matrix(k, k) += weight;
-        right[k] += weight * weightedMedian(knots[k]);
+        right[k] += weight * levels[k];
     }
     for (int k = 1; k + 1 < kShadeKnots; ++k) {
         Eigen::Matrix<double, kShadeKnots, 1> curvature = Eigen::Matrix<double, kShadeKnots, 1>::Zero();
@@ -198,42 +222,42 @@ int knotOf(float cosine)
 }
 
 // log of what the diffuse part of albedo 1 is at n.l = 0.8.
-float fitDiffuse(const std::vector<FitSample>& samples, Reflectance& reflectance)
+float fitDiffuse(const std::vector<FitSample>& samples, int threads, Reflectance& reflectance)
 {
-    std::array<WeightedValues, kShadeKnots> knots;
+    std::vector<WeightedValues> knots(kShadeKnots);
     for (const FitSample& sample : samples) {
         if (isDiffuse(sample.bin)) {
-            knots[knotOf(sample.cosine)].push_back({logOverAlbedo(sample), sample.cosine});
+            knots[knotOf(sample.cosine)].push_back({sample.logOverAlbedo, sample.cosine});
         }
     }
-    return fitShade(knots, reflectance);
+    return fitShade(knots, threads, reflectance);
 }
 
 std::vector<WeightedValues> binned(const std::vector<FitSample>& samples, const Reflectance& reflectance)
 {
     std::vector<WeightedValues> bins(kLobeTexels);
     for (const FitSample& sample : samples) {
-        bins[sample.bin].push_back({logOverAlbedo(sample) - reflectance.shadeAt(sample.cosine), sample.cosine});
+        bins[sample.bin].push_back({sample.logOverAlbedo - reflectance.shadeAt(sample.cosine), sample.cosine});
     }
     return bins;
 }
 
 // T and u in turn; answers log of what T was at its anchor.
-float fitMultiplicative(const std::vector<FitSample>& samples, Reflectance& reflectance)
+float fitMultiplicative(const std::vector<FitSample>& samples, int threads, Reflectance& reflectance)
 {
     for (int round = 0; round < kShadeRounds; ++round) {
         std::vector<WeightedValues> bins = binned(samples, reflectance);
-        const std::vector<float> lobe = medians(bins);
-        std::array<WeightedValues, kShadeKnots> knots;
+        const std::vector<float> lobe = medians(bins, threads);
+        std::vector<WeightedValues> knots(kShadeKnots);
         for (const FitSample& sample : samples) {
             if (bins[sample.bin].size() >= static_cast<size_t>(kHalfCounted)) {
-                knots[knotOf(sample.cosine)].push_back({logOverAlbedo(sample) - lobe[sample.bin], sample.cosine});
+                knots[knotOf(sample.cosine)].push_back({sample.logOverAlbedo - lobe[sample.bin], sample.cosine});
             }
         }
-        fitShade(knots, reflectance);
+        fitShade(knots, threads, reflectance);
     }
     std::vector<WeightedValues> bins = binned(samples, reflectance);
-    const std::vector<float> lobe = smoothLobe(medians(bins), binWeights(bins));
+    const std::vector<float> lobe = smoothLobe(medians(bins, threads), binWeights(bins));
     std::vector<float> inAnchor, everywhere;
     for (int bin = 0; bin < kLobeTexels; ++bin) {
         const float thetaH = glm::degrees(thetaHOfBin(bin / kDifferenceBins));
@@ -252,14 +276,14 @@ float fitMultiplicative(const std::vector<FitSample>& samples, Reflectance& refl
     return anchor;
 }
 
-void fitGloss(const std::vector<FitSample>& samples, float albedo, float unit, Reflectance& reflectance)
+void fitGloss(const std::vector<FitSample>& samples, float albedo, float unit, int threads, Reflectance& reflectance)
 {
     std::vector<WeightedValues> bins(kLobeTexels);
     for (const FitSample& sample : samples) {
         const float matte = sample.scale * albedo * std::exp(reflectance.shadeAt(sample.cosine));
         bins[sample.bin].push_back({std::asinh((sample.value - matte) * sample.bright / unit), sample.cosine});
     }
-    const std::vector<float> gloss = smoothLobe(medians(bins), binWeights(bins));
+    const std::vector<float> gloss = smoothLobe(medians(bins, threads), binWeights(bins));
     for (int bin = 0; bin < kLobeTexels; ++bin) {
         reflectance.lobe[bin] = std::sinh(gloss[bin]) * unit;
     }
@@ -291,21 +315,22 @@ AlbedoRange albedosOf(const PixelLattice& lattice, const std::vector<BallMatch>&
 
 } // namespace
 
-void fitReflectance(const PixelLattice& lattice, bool additive, MatchModel& model, std::vector<BallMatch>& matches)
+void fitReflectance(const PixelLattice& lattice, bool additive, int threads, MatchModel& model,
+                    std::vector<BallMatch>& matches)
 {
-    const std::vector<FitSample> samples = fitSamples(lattice, model, matches);
+    const std::vector<FitSample> samples = fitSamples(lattice, model, matches, threads);
     if (samples.empty()) {
         return;
     }
     Reflectance& reflectance = model.reflectance;
     reflectance.additive = additive;
-    const float anchor =
-        std::exp(additive ? fitDiffuse(samples, reflectance) : fitMultiplicative(samples, reflectance));
+    const float anchor = std::exp(additive ? fitDiffuse(samples, threads, reflectance)
+                                           : fitMultiplicative(samples, threads, reflectance));
     for (BallMatch& match : matches) {
         match.scale *= anchor;
     }
     if (additive) {
-        fitGloss(samples, anchor, kGlossUnit * medianAlbedo(lattice, matches), reflectance);
+        fitGloss(samples, anchor, kGlossUnit * medianAlbedo(lattice, matches), threads, reflectance);
     }
     model.albedos = albedosOf(lattice, matches);
 }
@@ -314,7 +339,7 @@ void refitModel(const PixelLattice& lattice, bool additive, int threads, MatchMo
                 std::vector<BallMatch>& matches)
 {
     const BallGrid& grid = *model.ball.grid;
-    fitReflectance(lattice, additive, model, matches);
+    fitReflectance(lattice, additive, threads, model, matches);
     model.ball = makeReflectanceBall(grid, model.reflectance, threads);
     forgetCosts(matches);
 }

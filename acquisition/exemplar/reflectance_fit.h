@@ -9,7 +9,8 @@ namespace nacre {
 // well explained pixels have. The reflectance's scale goes into the matches' scales: its diffuse part is 1 at
 // n.l = 0.8 (additive), its lobe 1 in the middle of thetaH 40 to 70 degrees (multiplicative); without that, albedo and
 // reflectance could grow against each other. `model`'s ball is left as it is.
-void fitReflectance(const PixelLattice& lattice, bool additive, MatchModel& model, std::vector<BallMatch>& matches);
+void fitReflectance(const PixelLattice& lattice, bool additive, int threads, MatchModel& model,
+                    std::vector<BallMatch>& matches);
 
 // The same, with the ball of the new reflectance; the matches' costs are not known any more.
 void refitModel(const PixelLattice& lattice, bool additive, int threads, MatchModel& model,

@@ -235,7 +235,7 @@ TEST(Exemplar, FitRecoversTheReflectanceThatItWasMadeOf)
         matches.push_back(matchAtTexel(model, lattice, p, ballTexelOf(scene.normals[p], 64), 1));
     }
     for (int round = 0; round < 3; ++round) {
-        fitReflectance(lattice, true, model, matches);
+        fitReflectance(lattice, true, 1, model, matches);
         model.ball = makeReflectanceBall(grid, model.reflectance, 1);
         for (size_t p = 0; p < lattice.pixelCount(); ++p) {
             matches[p] = matchAtTexel(model, lattice, p, matches[p].texel, matches[p].scale);
