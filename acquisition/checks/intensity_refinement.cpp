@@ -12,6 +12,7 @@
 
 #include "acquisition/lights/lights.h"
 #include "engine/files/measures.h"
+#include "engine/files/parallel_for.h"
 
 namespace nacre {
 
@@ -31,6 +32,9 @@ constexpr size_t kTriples = 100;
 // Pixels that a light grazes say little of its strength.
 constexpr float kLeastRefinedCosine = 0.3f;
 constexpr size_t kFewestPixels = 20;
+constexpr size_t kSummedPerTask = 512;
+// Pixels, evenly spread, that tell how ratios answer to errors.
+constexpr size_t kMostInResponse = 1000;
 // Pixels whose lights left lie in one plane tell nothing: least over largest squared singular value.
 constexpr double kLeastGramShare = 1e-4;
 // With fewer lights a pixel's normal follows whatever a photograph claims.
@@ -75,32 +79,59 @@ struct FacingRatios {
     ChannelRatios& telling() { return litShare() < kLeastLitShare ? shadowed : lit; }
 };
 
-std::vector<FacingRatios> gatherRatios(const Observations& sample, const NormalBlock& normals,
-                                       const std::vector<Light>& lights)
+// Of the used observations I of a pixel: sums of n.l I and of the squares of n.l, which its albedos follow from.
+struct UsedSums {
+    glm::vec3 products{0};
+    float squares = 0;
+};
+
+UsedSums usedSums(const Observations& sample, const NormalBlock& normals, const std::vector<Light>& lights,
+                  size_t pixel)
 {
-    std::vector<FacingRatios> ratios(lights.size());
-    for (size_t p = 0; p < sample.pixels.size(); ++p) {
-        const PixelNormal& pixel = normals.pixels[p];
-        const Verdict* verdicts = &normals.verdicts[p * lights.size()];
-        const auto radiance = sample.radianceOf(p);
-        glm::vec3 sum(0);
-        float squares = 0;
-        for (size_t i = 0; i < lights.size(); ++i) {
-            const float nDotL = glm::dot(pixel.normal, lights[i].direction);
-            if (verdicts[i] == Verdict::used && nDotL > 0) {
-                sum += nDotL * radiance[i] / lights[i].irradiance;
-                squares += nDotL * nDotL;
-            }
-        }
-        for (size_t i = 0; i < lights.size(); ++i) {
-            const float nDotL = glm::dot(pixel.normal, lights[i].direction);
-            if (squares > 0 && nDotL >= kLeastRefinedCosine && verdicts[i] != Verdict::saturated) {
-                const glm::vec3 seen = radiance[i] / lights[i].irradiance;
-                (verdicts[i] == Verdict::shadow ? ratios[i].shadowed : ratios[i].lit)
-                    .add(seen * squares / (sum * nDotL), greyOf(seen) * squares / (greyOf(sum) * nDotL));
-            }
+    UsedSums sums;
+    const auto radiance = sample.radianceOf(pixel);
+    for (size_t i = 0; i < lights.size(); ++i) {
+        const float nDotL = glm::dot(normals.pixels[pixel].normal, lights[i].direction);
+        if (normals.verdicts[pixel * lights.size() + i] == Verdict::used && nDotL > 0) {
+            sums.products += nDotL * radiance[i] / lights[i].irradiance;
+            sums.squares += nDotL * nDotL;
         }
     }
+    return sums;
+}
+
+FacingRatios facingRatios(const Observations& sample, const NormalBlock& normals, const std::vector<UsedSums>& sums,
+                          const Light& light, size_t index)
+{
+    FacingRatios ratios;
+    for (size_t p = 0; p < sample.pixels.size(); ++p) {
+        const float nDotL = glm::dot(normals.pixels[p].normal, light.direction);
+        const Verdict verdict = normals.verdicts[p * sample.lightCount + index];
+        if (sums[p].squares > 0 && nDotL >= kLeastRefinedCosine && verdict != Verdict::saturated) {
+            const glm::vec3 seen = sample.radianceOf(p)[index] / light.irradiance, &products = sums[p].products;
+            (verdict == Verdict::shadow ? ratios.shadowed : ratios.lit)
+                .add(seen * sums[p].squares / (products * nDotL),
+                     greyOf(seen) * sums[p].squares / (greyOf(products) * nDotL));
+        }
+    }
+    return ratios;
+}
+
+std::vector<FacingRatios> gatherRatios(const Observations& sample, const NormalBlock& normals,
+                                       const std::vector<Light>& lights, int threads)
+{
+    std::vector<UsedSums> sums(sample.pixels.size());
+    parallelFor(sums.size(), kSummedPerTask, threads, [&](size_t first, size_t last) {
+        for (size_t p = first; p < last; ++p) {
+            sums[p] = usedSums(sample, normals, lights, p);
+        }
+    });
+    std::vector<FacingRatios> ratios(lights.size());
+    parallelFor(lights.size(), 1, threads, [&](size_t first, size_t last) {
+        for (size_t i = first; i < last; ++i) {
+            ratios[i] = facingRatios(sample, normals, sums, lights[i], i);
+        }
+    });
     return ratios;
 }
 
@@ -153,6 +184,17 @@ PhotographScatter scatterOf(FacingRatios& ratios)
     return scatter;
 }
 
+std::vector<PhotographScatter> scattersOf(std::vector<FacingRatios>& gathered, int threads)
+{
+    std::vector<PhotographScatter> scatters(gathered.size());
+    parallelFor(gathered.size(), 1, threads, [&](size_t first, size_t last) {
+        for (size_t i = first; i < last; ++i) {
+            scatters[i] = scatterOf(gathered[i]);
+        }
+    });
+    return scatters;
+}
+
 float spreadOf(const std::vector<glm::vec3>& ratios)
 {
     std::vector<float> deviations;
@@ -183,18 +225,20 @@ float steepestStep(const std::vector<glm::vec3>& from, const std::vector<glm::ve
 // directions, weighted by squared cosines.
 Eigen::MatrixXd responseOf(const NormalBlock& normals, const std::vector<Light>& lights)
 {
-    const Eigen::Index n = static_cast<Eigen::Index>(lights.size()),
-                       pixels = static_cast<Eigen::Index>(normals.pixels.size());
+    const Eigen::Index n = static_cast<Eigen::Index>(lights.size());
+    const std::vector<size_t> pixels = spreadPixels(normals.pixels.size(), kMostInResponse);
     Eigen::VectorXd weights = Eigen::VectorXd::Zero(n);
-    Eigen::MatrixXd taken = Eigen::MatrixXd::Zero(n, 3 * pixels); // P = taken * taken^T
+    // P = taken * taken^T
+    Eigen::MatrixXd taken = Eigen::MatrixXd::Zero(n, 3 * static_cast<Eigen::Index>(pixels.size()));
     Eigen::MatrixX3d rows(n, 3);
-    for (Eigen::Index p = 0; p < pixels; ++p) {
+    for (Eigen::Index k = 0; k < static_cast<Eigen::Index>(pixels.size()); ++k) {
+        const size_t p = pixels[k];
         Eigen::Matrix3d gram = Eigen::Matrix3d::Zero();
         rows.setZero();
         for (Eigen::Index i = 0; i < n; ++i) {
             const glm::vec3& l = lights[i].direction;
             const double cosine = glm::dot(normals.pixels[p].normal, l);
-            const Verdict verdict = normals.verdicts[p * n + i];
+            const Verdict verdict = normals.verdicts[p * lights.size() + i];
             if (cosine > 0 && verdict != Verdict::shadow && verdict != Verdict::saturated) {
                 weights(i) += cosine * cosine;
             }
@@ -206,7 +250,7 @@ Eigen::MatrixXd responseOf(const NormalBlock& normals, const std::vector<Light>&
         }
         const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(gram);
         if (solver.eigenvalues()(0) > kLeastGramShare * solver.eigenvalues()(2)) {
-            taken.middleCols<3>(3 * p) = rows * solver.operatorInverseSqrt();
+            taken.middleCols<3>(3 * k) = rows * solver.operatorInverseSqrt();
         }
     }
     Eigen::MatrixXd response = -taken * taken.transpose();
@@ -228,23 +272,43 @@ struct MedianRatios {
     std::vector<glm::vec3> colours;
 };
 
-MedianRatios mediansOf(std::vector<FacingRatios>& gathered, const std::vector<bool>& isFree)
+// Of one photograph; grey is 0 where too few pixels tell.
+struct MedianRatio {
+    float grey = 0;
+    glm::vec3 colour{1};
+};
+
+MedianRatio medianOf(FacingRatios& gathered)
 {
+    ChannelRatios& ratios = gathered.telling();
+    MedianRatio median;
+    if (ratios.grey.size() < kFewestPixels) {
+        return median;
+    }
+    median.grey = quantile(ratios.grey, 0.5);
+    for (int c = 0; c < 3; ++c) {
+        std::vector<float>& values = ratios.values[c];
+        const float ratio = values.size() >= kFewestPixels ? quantile(values, 0.5) : median.grey;
+        median.colour[c] = ratio > 0 ? ratio / median.grey : 1.0f;
+    }
+    return median;
+}
+
+MedianRatios mediansOf(std::vector<FacingRatios>& gathered, const std::vector<bool>& isFree, int threads)
+{
+    std::vector<MedianRatio> all(gathered.size());
+    parallelFor(gathered.size(), 1, threads, [&](size_t first, size_t last) {
+        for (size_t i = first; i < last; ++i) {
+            all[i] = isFree[i] ? medianOf(gathered[i]) : MedianRatio{};
+        }
+    });
     MedianRatios medians;
     std::vector<double> logs;
-    for (size_t i = 0; i < gathered.size(); ++i) {
-        ChannelRatios& ratios = gathered[i].telling();
-        const float grey = isFree[i] && ratios.grey.size() >= kFewestPixels ? quantile(ratios.grey, 0.5) : 0.0f;
-        if (grey > 0) {
-            glm::vec3 colour(1);
-            for (int c = 0; c < 3; ++c) {
-                std::vector<float>& values = ratios.values[c];
-                const float ratio = values.size() >= kFewestPixels ? quantile(values, 0.5) : grey;
-                colour[c] = ratio > 0 ? ratio / grey : 1.0f;
-            }
+    for (size_t i = 0; i < all.size(); ++i) {
+        if (all[i].grey > 0) {
             medians.photographs.push_back(static_cast<Eigen::Index>(i));
-            medians.colours.push_back(colour);
-            logs.push_back(std::log(grey));
+            medians.colours.push_back(all[i].colour);
+            logs.push_back(std::log(all[i].grey));
         }
     }
     medians.logs = Eigen::Map<const Eigen::VectorXd>(logs.data(), static_cast<Eigen::Index>(logs.size()));
@@ -286,25 +350,40 @@ double priorOf(const PhotographRatios& found)
     return std::pow(quantile(scatters, 0.5) / std::max(kLeastSpread, spread), 2);
 }
 
+std::vector<Light> scaled(std::vector<Light> lights, const std::vector<glm::vec3>& ratios)
+{
+    for (size_t i = 0; i < lights.size(); ++i) {
+        lights[i].irradiance *= ratios[i];
+    }
+    return lights;
+}
+
+// Where ratios start from. Those that are close to their end are improved by Newton's steps from the first on.
+struct RatioStart {
+    std::vector<glm::vec3> ratios;
+    bool isClose = false;
+};
+
 // Ratios of the photographs that are free; the others' stay 1. Without a fixed one the scale is the median's, and
 // what the photographs tell of the ratios is weighed against their being equal. All are 1 where they do not settle.
 PhotographRatios refineRatios(const Observations& sample, const std::vector<Light>& lights,
-                              const NormalOptions& options, const std::vector<bool>& isFree, int mostIterations)
+                              const NormalOptions& options, const std::vector<bool>& isFree, const RatioStart& start,
+                              int mostIterations)
 {
     PhotographRatios result;
-    result.ratios.assign(lights.size(), glm::vec3(1));
+    result.ratios = start.ratios;
     const bool allFree = std::find(isFree.begin(), isFree.end(), false) == isFree.end();
-    std::vector<Light> current = lights;
+    std::vector<Light> current = scaled(lights, result.ratios);
     NormalOptions quick = options;
     quick.triples = std::min(options.triples, kTriples);
     const NormalEstimator consensus = makeConsensusEstimator(lights, quick); // knows directions alone
-    bool isClose = false;
+    bool isClose = start.isClose;
     double prior = 0, least = std::numeric_limits<double>::infinity();
     int idle = 0; // steps since the least miss
     for (; result.iterations < mostIterations && !result.settled; ++result.iterations) {
         const NormalBlock normals = consensus(intensitiesOf(sample, current));
-        std::vector<FacingRatios> gathered = gatherRatios(sample, normals, current);
-        const MedianRatios medians = mediansOf(gathered, isFree);
+        std::vector<FacingRatios> gathered = gatherRatios(sample, normals, current, options.threads);
+        const MedianRatios medians = mediansOf(gathered, isFree, options.threads);
         const Eigen::VectorXd missed = medians.logs - prior * logarithmsOf(result.ratios)(medians.photographs);
         const double miss = missed.norm() / std::sqrt(std::max<double>(1, static_cast<double>(missed.size())));
         idle = miss < least ? 0 : idle + 1;
@@ -321,23 +400,24 @@ PhotographRatios refineRatios(const Observations& sample, const std::vector<Ligh
             fixScale(next);
         }
         const float change = steepestStep(result.ratios, next);
-        for (size_t i = 0; i < lights.size(); ++i) {
-            current[i].irradiance = lights[i].irradiance * next[i];
-        }
+        current = scaled(lights, next);
         result.ratios = next;
-        result.scatters.clear();
-        std::transform(gathered.begin(), gathered.end(), std::back_inserter(result.scatters), scatterOf);
         result.settled = isClose && (change < kRest || (idle >= kIdleSteps && miss < kJumps));
-        if (!isClose && change < kClose) {
+        const bool becomesClose = !isClose && change < kClose;
+        if (result.settled || becomesClose) {
+            result.scatters = scattersOf(gathered, options.threads);
+        }
+        if (becomesClose) {
             isClose = true;
             least = std::numeric_limits<double>::infinity();
             prior = allFree ? priorOf(result) : 0;
         }
     }
     if (!result.settled) {
+        const RatioStart allOnes{std::vector<glm::vec3>(lights.size(), glm::vec3(1))};
         // With none free it settles at once.
         PhotographRatios asGiven =
-            refineRatios(sample, lights, options, std::vector<bool>(lights.size(), false), kMostIterations);
+            refineRatios(sample, lights, options, std::vector<bool>(lights.size(), false), allOnes, kMostIterations);
         asGiven.settled = false;
         asGiven.iterations = result.iterations;
         return asGiven;
@@ -407,20 +487,23 @@ std::vector<Finding> correctIntensities(const PhotographRatios& found, const std
 PhotographRatios estimateIntensityRatios(const Observations& sample, const std::vector<Light>& lights,
                                          const NormalOptions& options, int mostIterations)
 {
-    return refineRatios(sample, lights, options, std::vector<bool>(lights.size(), true), mostIterations);
+    const RatioStart allOnes{std::vector<glm::vec3>(lights.size(), glm::vec3(1))};
+    return refineRatios(sample, lights, options, std::vector<bool>(lights.size(), true), allOnes, mostIterations);
 }
 
 PhotographRatios confirmedRatios(const PhotographRatios& found, const Observations& sample,
                                  const std::vector<Light>& lights, const NormalOptions& options)
 {
     std::vector<bool> isDoubted;
+    RatioStart start{{}, true};
     for (size_t i = 0; i < lights.size(); ++i) {
         isDoubted.push_back(disagrees(found, i));
+        start.ratios.push_back(isDoubted[i] ? found.ratios[i] : glm::vec3(1));
     }
     if (std::find(isDoubted.begin(), isDoubted.end(), true) == isDoubted.end()) {
         return found;
     }
-    PhotographRatios confirmed = refineRatios(sample, lights, options, isDoubted, kMostIterations);
+    PhotographRatios confirmed = refineRatios(sample, lights, options, isDoubted, start, kMostIterations);
     confirmed.spread = found.spread; // the photographs' own scatter, which fixed ratios do not show
     return confirmed;
 }

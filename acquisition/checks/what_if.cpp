@@ -9,6 +9,7 @@
 #include <glm/vec2.hpp>
 
 #include "acquisition/checks/matte_scatter.h"
+#include "engine/files/parallel_for.h"
 
 namespace nacre {
 
@@ -71,6 +72,26 @@ Intensities asIfDistant(const Intensities& intensities, const std::vector<glm::v
     return result;
 }
 
+// The scatter that is left where a photograph's values are raised to a power, or a light's distance is taken out.
+double scatterOfPower(const Observations& seen, const std::vector<Light>& lights, const NormalEstimator& consensus,
+                      const MatteChoice& matte, double exponent)
+{
+    const Intensities bent = intensitiesOf(powerOf(seen, exponent), lights);
+    return matteScatter(bent, consensus(bent), lights, matte) / exponent;
+}
+
+double scatterAtDistance(const Intensities& intensities, const std::vector<glm::vec3>& places,
+                         const std::vector<Light>& lights, const NormalEstimator& consensus, const MatteChoice& matte,
+                         NormalBlock near, double distance)
+{
+    Intensities distant;
+    for (int step = 0; step < kDistanceSteps; ++step) {
+        distant = asIfDistant(intensities, places, lights, near, static_cast<float>(distance));
+        near = consensus(distant);
+    }
+    return matteScatter(distant, near, lights, matte);
+}
+
 } // namespace
 
 std::optional<CaptureDefect> findDefect(const Observations& seen, const std::vector<Light>& lights,
@@ -79,34 +100,36 @@ std::optional<CaptureDefect> findDefect(const Observations& seen, const std::vec
     if (scatter < kLeastScatter) {
         return {};
     }
-    const NormalEstimator consensus = makeConsensusEstimator(lights, options);
+    NormalOptions alone = options;
+    alone.threads = 1; // the trials run beside each other
+    const NormalEstimator consensus = makeConsensusEstimator(lights, alone);
     const Intensities intensities = intensitiesOf(seen, lights);
     const NormalBlock fit = consensus(intensities);
     const MatteChoice matte = matteObservations(intensities, fit, lights);
-    std::optional<CaptureDefect> best;
-    const auto consider = [&](CaptureDefect::Kind kind, double size, double left, double telling) {
-        if (left < telling * scatter && (!best || left < best->scatter)) {
-            best = {kind, size, left};
-        }
-    };
+    const std::vector<glm::vec3> places = seen.width > 0 ? placesOf(seen) : std::vector<glm::vec3>();
+    std::vector<CaptureDefect> trials;
     for (const double exponent : kExponents) {
-        const Intensities bent = intensitiesOf(powerOf(seen, exponent), lights);
-        consider(exponent > 1 ? CaptureDefect::Kind::encoded : CaptureDefect::Kind::decoded, exponent,
-                 matteScatter(bent, consensus(bent), lights, matte) / exponent, kTellingCurve);
+        trials.push_back({exponent > 1 ? CaptureDefect::Kind::encoded : CaptureDefect::Kind::decoded, exponent, 0});
     }
-    if (seen.width <= 0) {
-        return best;
-    }
-    const std::vector<glm::vec3> places = placesOf(seen);
     for (const double distance : kWidths) {
-        NormalBlock near = fit;
-        Intensities distant;
-        for (int step = 0; step < kDistanceSteps; ++step) {
-            distant = asIfDistant(intensities, places, lights, near, static_cast<float>(distance));
-            near = consensus(distant);
+        if (!places.empty()) {
+            trials.push_back({CaptureDefect::Kind::nearLights, distance, 0});
         }
-        consider(CaptureDefect::Kind::nearLights, distance, matteScatter(distant, near, lights, matte),
-                 kTellingDistance);
+    }
+    parallelFor(trials.size(), 1, options.threads, [&](size_t first, size_t last) {
+        for (size_t t = first; t < last; ++t) {
+            CaptureDefect& trial = trials[t];
+            trial.scatter = trial.kind == CaptureDefect::Kind::nearLights
+                                ? scatterAtDistance(intensities, places, lights, consensus, matte, fit, trial.size)
+                                : scatterOfPower(seen, lights, consensus, matte, trial.size);
+        }
+    });
+    std::optional<CaptureDefect> best;
+    for (const CaptureDefect& trial : trials) {
+        const double telling = trial.kind == CaptureDefect::Kind::nearLights ? kTellingDistance : kTellingCurve;
+        if (trial.scatter < telling * scatter && (!best || trial.scatter < best->scatter)) {
+            best = trial;
+        }
     }
     return best;
 }
