@@ -15,7 +15,7 @@
 #include "engine/materials/material_specification.h"
 #include "engine/scene/coverage.h"
 #include "engine/scene/scene_residual.h"
-#include "engine/target/height_from_normals.h"
+#include "engine/surface/height_from_normals.h"
 #include "engine/target/mesh_file.h"
 
 namespace nacre {

@@ -1,7 +1,7 @@
 #pragma once
+#include "engine/surface/height_from_normals.h"
 #include "engine/surface/normal_map.h"
 #include "engine/surface/surface.h"
-#include "engine/target/height_from_normals.h"
 
 namespace nacre {
 

@@ -1,4 +1,4 @@
-#include "engine/target/height_from_normals.h"
+#include "engine/surface/height_from_normals.h"
 
 #include <cmath>
 #include <cstddef>

@@ -6,7 +6,7 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "engine/target/height_from_normals.h"
+#include "engine/surface/height_from_normals.h"
 
 namespace nacre::test {
 namespace {
