@@ -31,7 +31,7 @@ struct PixelPrediction {
     float limit = 0; // of a miss
 };
 
-bool predictPixel(const Observations& block, size_t p, const glm::vec3& normal, const std::vector<Light>& lights,
+bool predictPixel(const Observations& block, size_t p, const glm::vec3& normal, std::span<const Light> lights,
                   const BrdfTable& table, PixelPrediction& pixel)
 {
     pixel.observed.clear();
@@ -83,17 +83,19 @@ std::vector<glm::vec3> albedoFactors(const Observations& block, const NormalBloc
     return factors;
 }
 
-void refitAlbedo(const Observations& block, const NormalMap& normals, const std::vector<Light>& lights,
-                 const BrdfTable& table, int threads, Image& albedo)
+void refitAlbedo(const Observations& block, const NormalMap& normals, const LocalLights& lights, const BrdfTable& table,
+                 int threads, Image& albedo)
 {
     parallelFor(block.pixels.size(), 64, threads, [&](size_t first, size_t last) {
         PixelPrediction pixel;
+        std::vector<Light> own;
         for (size_t p = first; p < last; ++p) {
             const uint32_t at = block.pixels[p];
             const int x = static_cast<int>(at % albedo.width), y = static_cast<int>(at / albedo.width);
             const glm::vec3 factor = albedo.rgb(x, y);
             const bool known = normals.confidence[at] > 0 && factor != glm::vec3(0);
-            if (known && predictPixel(block, p, normals.normals[at], lights, table, pixel)) {
+            if (known &&
+                predictPixel(block, p, lights.toLocal(at, normals.normals[at]), lights.of(at, own), table, pixel)) {
                 albedo.setRgb(x, y, refittedFactor(pixel, factor));
             }
         }

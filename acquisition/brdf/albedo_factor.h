@@ -2,6 +2,7 @@
 #include <span>
 
 #include "acquisition/capture/observations.h"
+#include "acquisition/near_field/local_lights.h"
 #include "acquisition/normals/normals.h"
 #include "engine/brdf/brdf_table.h"
 #include "engine/files/image.h"
@@ -19,8 +20,8 @@ std::vector<glm::vec3> albedoFactors(const Observations& block, const NormalBloc
 // cast shadows and interreflections say nothing. `albedo` holds the factors to start from, over whole photographs;
 // pixels without one, without a normal, or that the table does not explain keep what they have.
 constexpr float kRefitLimit = 0.225f;
-void refitAlbedo(const Observations& block, const NormalMap& normals, const std::vector<Light>& lights,
-                 const BrdfTable& table, int threads, Image& albedo);
+void refitAlbedo(const Observations& block, const NormalMap& normals, const LocalLights& lights, const BrdfTable& table,
+                 int threads, Image& albedo);
 
 // Makes the mean over the pixels that have a factor 1 in each channel, and gives the table what was taken from them.
 // Answers what that was: the means.

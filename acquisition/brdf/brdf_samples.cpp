@@ -40,32 +40,36 @@ BrdfSamples usableSamples(const BrdfSamples& samples)
 }
 
 void gatherSamples(const Observations& block, const NormalBlock& normals, std::span<const glm::vec3> albedo,
-                   const std::vector<Light>& lights, double share, const SampleOptions& options, BrdfSamples& samples,
+                   const LocalLights& lights, double share, const SampleOptions& options, BrdfSamples& samples,
                    SampleCounts& counts)
 {
+    const size_t n = block.lightCount;
+    std::vector<Light> own;
     for (size_t p = 0; p < block.pixels.size(); ++p) {
         const PixelNormal& pixel = normals.pixels[p];
         // A channel that is black everywhere says nothing of the others' material.
         const bool black = !(glm::min(albedo[p].x, glm::min(albedo[p].y, albedo[p].z)) > 0);
         if (pixel.confidence <= 0 || black) {
-            counts.withoutNormal += lights.size();
+            counts.withoutNormal += n;
             continue;
         }
         if (scattered(block.pixels[p]) >= share) {
-            counts.thinned += lights.size();
+            counts.thinned += n;
             continue;
         }
         const auto radiance = block.radianceOf(p);
-        const Verdict* verdicts = &normals.verdicts[p * lights.size()];
-        for (size_t i = 0; i < lights.size(); ++i) {
-            const float nDotL = glm::dot(pixel.normal, lights[i].direction);
+        const Verdict* verdicts = &normals.verdicts[p * n];
+        const std::span<const Light> met = lights.of(block.pixels[p], own);
+        const glm::vec3 normal = lights.toLocal(block.pixels[p], pixel.normal);
+        for (size_t i = 0; i < n; ++i) {
+            const float nDotL = glm::dot(normal, met[i].direction);
             if (verdicts[i] == Verdict::saturated) {
                 ++counts.saturated;
             } else if (nDotL < options.leastCosine || verdicts[i] == Verdict::shadow) {
                 ++counts.shadowed;
             } else {
-                samples.unit.push_back(unitFromDirections(samples.domain, pixel.normal, lights[i].direction, kView));
-                samples.values.push_back(brdfFromRadiance(radiance[i], albedo[p] * lights[i].irradiance, nDotL));
+                samples.unit.push_back(unitFromDirections(samples.domain, normal, met[i].direction, kView));
+                samples.values.push_back(brdfFromRadiance(radiance[i], albedo[p] * met[i].irradiance, nDotL));
                 samples.weights.push_back(pixel.confidence * nDotL);
                 ++counts.used;
             }

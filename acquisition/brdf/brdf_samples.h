@@ -5,6 +5,7 @@
 
 #include <glm/vec4.hpp>
 
+#include "acquisition/near_field/local_lights.h"
 #include "acquisition/normals/normals.h"
 #include "shared/brdf_coords.h"
 
@@ -39,11 +40,11 @@ struct SampleCounts {
     size_t thinned = 0;       // left out because `most` was reached
 };
 
-// Adds f_i = I_i / (a_p E_i n.l_i) of a block's pixels with their albedo factors a_p, v = (0,0,1). `share` of the
-// pixels is kept, so that the capture's total stays below `most`. Verdicts are obeyed: nothing in shadow and nothing
-// saturated goes in.
+// Adds f_i = I_i / (a_p E_i n.l_i) of a block's pixels with their albedo factors a_p, each in its own frame, v =
+// (0,0,1). `share` of the pixels is kept, so that the capture's total stays below `most`. Verdicts are obeyed: nothing
+// in shadow and nothing saturated goes in.
 void gatherSamples(const Observations& block, const NormalBlock& normals, std::span<const glm::vec3> albedo,
-                   const std::vector<Light>& lights, double share, const SampleOptions& options, BrdfSamples& samples,
+                   const LocalLights& lights, double share, const SampleOptions& options, BrdfSamples& samples,
                    SampleCounts& counts);
 
 // How far apart two configurations are, for finding neighbours.

@@ -50,6 +50,7 @@ void replaceDirections(Capture& capture)
 {
     if (!capture.irradianceGiven) {
         capture.lights.clear();
+        capture.lightPlaces.clear();
         capture.lightsSource.clear();
         capture.lightsOrder.clear();
     }
@@ -164,6 +165,7 @@ Capture loadCapture(const fs::path& folder, const CaptureOptions& options)
     requireCounts(contents);
     skipAndAssignRig(contents, options.skip, options.rig);
     requireCounts(contents);
+    placeLights(contents, options);
     examineHeaders(contents, options.transfer);
     Capture& capture = contents.capture;
     requireLabelSize(capture);

@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include <glm/vec3.hpp>
+
 #include "engine/files/image.h"
 #include "engine/lights/light.h"
 
@@ -63,6 +65,8 @@ struct SpherePhotographs {
     std::optional<SphereInPicture> inPicture;
 };
 
+inline constexpr double kWidestView = 120; // degrees: what a pixel shows is far from a plane beyond it
+
 enum class CaptureLayout { uw, diligent, rti, json };
 std::string describe(CaptureLayout layout);
 
@@ -93,8 +97,10 @@ struct Capture {
     std::filesystem::path truthNormals; // empty where there is none; of the files' size, see windowedNormals
     std::filesystem::path labelsFile;   // of the files' size; empty where there is none
     std::filesystem::path smoothFile;   // the same
-    std::optional<double> lightDistance; // from the object, in the unit of
-    std::optional<double> objectWidth;
+    // In widths of the object, which is the longer side of its mask's bounding box, from the middle of that.
+    std::optional<double> lightDistance; // of all lights; infinite: they are distant; none: not known
+    std::vector<glm::vec3> lightPlaces;  // one per photograph, camera frame; empty where they are not known
+    std::optional<double> fieldOfView;   // across the capture's width, degrees; none: the camera is orthographic
 };
 
 // An offset to subtract, on the scale of decoded values in [0, 1], or to estimate.
@@ -112,7 +118,10 @@ struct CaptureOptions {
     std::filesystem::path diffuseSphere;
     std::vector<std::string> skip; // names of photographs, with or without extension
     std::optional<OffsetChoice> offset;
-    std::filesystem::path rig; // lights from another file: .lp, or the JSON that synth and calibrate write
+    std::optional<double> lightDistance; // in widths of the object; infinite: distant, whatever the photographs tell
+    std::optional<double> objectWidth;   // in the unit in which a file places the lights
+    std::optional<double> fieldOfView;   // degrees across the files' width
+    std::filesystem::path rig;           // lights from another file: .lp, or the JSON that synth and calibrate write
 };
 
 // Finds out the layout (docs/formats.md) and checks all that can be checked without decoding every photograph:

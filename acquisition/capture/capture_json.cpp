@@ -126,6 +126,7 @@ LightFile lightsBeside(const std::vector<JsonNode>& photographs)
         const auto irradiance = light->find("irradiance");
         requireAlike(*light, irradiance.has_value(), lightOf(photographs[0])->has("irradiance"), "an irradiance");
         lights.irradianceGiven = irradiance.has_value();
+        lights.vectors.push_back(light->at("direction").vector3());
         lights.lights.push_back(
             {directionOf(light->at("direction")), irradiance ? irradianceOf(*irradiance) : glm::vec3(1)});
     }
@@ -243,21 +244,30 @@ int boxOf(const JsonNode& node)
     throw node.error(fmt::format("is {}", scale), "1, 1/2, 1/3 or 1/4: boxes of whole pixels are averaged");
 }
 
-void readSizes(const JsonNode& root, Capture& capture)
+void readSizes(const JsonNode& root, LayoutContents& contents)
 {
+    Capture& capture = contents.capture;
     if (const auto crop = root.find("crop")) {
         readCrop(*crop, capture.window);
     }
     if (const auto scale = root.find("scale")) {
         capture.window.box = boxOf(*scale);
     }
-    if (root.has("lightDistance") != root.has("objectWidth")) {
-        throw root.error(fmt::format("has \"{}\" alone", root.has("objectWidth") ? "objectWidth" : "lightDistance"),
-                         "\"lightDistance\" and \"objectWidth\", in one unit of length");
+    if (root.has("lightDistance") && !root.has("objectWidth")) {
+        throw root.error("has \"lightDistance\" alone", "\"objectWidth\" beside it, in one unit of length");
+    }
+    if (const auto width = root.find("objectWidth")) {
+        contents.objectWidth = positiveNumber(*width, "a positive length");
     }
     if (const auto distance = root.find("lightDistance")) {
-        capture.lightDistance = positiveNumber(*distance, "a positive length");
-        capture.objectWidth = positiveNumber(root.at("objectWidth"), "a positive length");
+        capture.lightDistance = positiveNumber(*distance, "a positive length") / *contents.objectWidth;
+    }
+    if (const auto degrees = root.find("fieldOfView")) {
+        capture.fieldOfView = degrees->number();
+        if (!(*capture.fieldOfView > 0 && *capture.fieldOfView <= kWidestView)) {
+            throw degrees->error(fmt::format("is {}", *capture.fieldOfView),
+                                 fmt::format("degrees above 0, {} at most", kWidestView));
+        }
     }
 }
 
@@ -280,9 +290,10 @@ std::optional<LayoutContents> readJsonLayout(const fs::path& folder)
         return std::nullopt;
     }
     const JsonNode root = JsonNode::loadVersioned(file, "nacre capture", kCaptureVersion);
-    root.allowKeys({"format", "version", "name", "transfer", "mask", "truthNormals", "lights", "irradiances",
-                    "photographs", "mirrorSphere", "diffuseSphere", "ambient", "offset", "crop", "scale", "labels",
-                    "lightDistance", "objectWidth", "smooth"});
+    root.allowKeys({"format",        "version",       "name",        "transfer",    "mask",
+                    "truthNormals",  "lights",        "irradiances", "photographs", "mirrorSphere",
+                    "diffuseSphere", "ambient",       "offset",      "crop",        "scale",
+                    "labels",        "lightDistance", "objectWidth", "fieldOfView", "smooth"});
     LayoutContents contents;
     Capture& capture = contents.capture;
     capture.layout = CaptureLayout::json;
@@ -314,7 +325,7 @@ std::optional<LayoutContents> readJsonLayout(const fs::path& folder)
     if (const auto ambient = root.find("ambient")) {
         capture.ambient = ambientOf(*ambient, read.exposuresGiven);
     }
-    readSizes(root, capture);
+    readSizes(root, contents);
     readSpheres(root, capture);
     return contents;
 }

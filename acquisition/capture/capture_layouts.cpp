@@ -88,10 +88,7 @@ constexpr const char* kIntensitiesFile = "light_intensities.txt";
 
 LightFile loadDiligentLights(const fs::path& folder)
 {
-    LightFile result;
-    for (const glm::vec3& direction : loadDirections(folder / kDirectionsFile)) {
-        result.lights.push_back({direction, glm::vec3(1)});
-    }
+    LightFile result = loadDirectionTable(folder / kDirectionsFile);
     if (fs::exists(folder / kIntensitiesFile)) {
         addIrradiances(result, folder / kIntensitiesFile);
     }
@@ -237,6 +234,7 @@ LayoutContents readLp(const fs::path& lp, const fs::path& folder, const PictureP
         contents.capture.photographs.push_back(photographOf(file));
     }
     contents.capture.lights = lights.lights;
+    contents.capture.lightPlaces = lights.vectors;
     contents.capture.lightsSource = lights.lights.empty() ? "" : lp.string();
     std::copy_if(pool[0].begin(), pool[0].end(), std::back_inserter(contents.masks),
                  [&](const fs::path& file) { return isNamedMask(file) && !listed.contains(file); });

@@ -16,6 +16,7 @@ struct LayoutContents {
     std::optional<TransferCurve> transfer;
     bool exposuresGiven = false;
     std::optional<OffsetChoice> offset;
+    std::optional<double> objectWidth; // in the unit of the vectors towards the lights, which are then their places
 };
 
 // Each answers nothing where the folder has another layout, and throws Error where it has this one, but wrongly.
@@ -47,6 +48,10 @@ void addIrradiances(LightFile& lights, const std::filesystem::path& file);
 // photographs, or of those that are not left out.
 void skipAndAssignRig(LayoutContents& contents, const std::vector<std::string>& skip,
                       const std::filesystem::path& rigFile);
+
+// Makes places, in widths of the object, of the vectors that the lights came with where that unit is known, and drops
+// them elsewhere. Throws Error (data) where they are no places.
+void placeLights(LayoutContents& contents, const CaptureOptions& options);
 
 // in-picture:X,Y,W,H[,MASK], a sphere in the object's own photographs, or a folder of photographs and a mask. A
 // sphere's mask beside the photographs is not the object's. Throws Error (usage) by the sphere's `name` where it is

@@ -1,12 +1,14 @@
 // Which photographs count, which light each has, and the calibration spheres that the user names.
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <map>
 #include <numeric>
 #include <set>
 #include <string_view>
 
 #include <fmt/format.h>
+#include <glm/geometric.hpp>
 
 #include "acquisition/capture/capture_layouts.h"
 #include "engine/files/error.h"
@@ -111,6 +113,7 @@ Capture selectPhotographs(const Capture& capture, const std::vector<size_t>& cho
     Capture result = capture;
     result.photographs = selectItems(capture.photographs, chosen);
     result.lights = selectItems(capture.lights, chosen);
+    result.lightPlaces = selectItems(capture.lightPlaces, chosen);
     for (std::optional<SpherePhotographs>* sphere : {&result.mirrorSphere, &result.diffuseSphere}) {
         if (*sphere) {
             (*sphere)->photographs = selectItems((*sphere)->photographs, chosen);
@@ -164,9 +167,8 @@ void assignLights(LayoutContents& contents, const LightFile& lights, const fs::p
         order.resize(lights.lights.size());
         std::iota(order.begin(), order.end(), size_t{0});
     }
-    capture.lights.clear();
-    std::transform(order.begin(), order.end(), std::back_inserter(capture.lights),
-                   [&](size_t index) { return lights.lights[index]; });
+    capture.lights = selectItems(lights.lights, order);
+    capture.lightPlaces = selectItems(lights.vectors, order);
     capture.lightsSource = file.string();
     capture.irradianceGiven = lights.irradianceGiven;
 }
@@ -196,6 +198,41 @@ void skipAndAssignRig(LayoutContents& contents, const std::vector<std::string>& 
     dropSkipped(contents.capture);
     if (rig && !hasAll) {
         assignLights(contents, *rig, rigFile);
+    }
+}
+
+namespace {
+
+// Unit vectors are directions: lengths that differ by less.
+constexpr float kSameLength = 0.01f;
+
+bool areDirections(const std::vector<glm::vec3>& vectors)
+{
+    return std::all_of(vectors.begin(), vectors.end(),
+                       [](const glm::vec3& v) { return std::abs(glm::length(v) - 1) < kSameLength; });
+}
+
+} // namespace
+
+void placeLights(LayoutContents& contents, const CaptureOptions& options)
+{
+    Capture& capture = contents.capture;
+    const std::optional<double> width = options.objectWidth ? options.objectWidth : contents.objectWidth;
+    const std::optional<double> distance = options.lightDistance ? options.lightDistance : capture.lightDistance;
+    std::vector<glm::vec3> vectors = std::move(capture.lightPlaces);
+    capture.lightPlaces.clear();
+    capture.lightDistance = distance;
+    capture.fieldOfView = options.fieldOfView ? options.fieldOfView : capture.fieldOfView;
+    if (distance || !width) {
+        return;
+    }
+    if (vectors.empty() || areDirections(vectors)) {
+        throw Error(capture.lightsSource.empty() ? capture.folder : fs::path(capture.lightsSource),
+                    fmt::format("places no lights, though the object's width is given as {:g}", *width),
+                    "the lights' places in the unit of the object's width, or their distance");
+    }
+    for (const glm::vec3& vector : vectors) {
+        capture.lightPlaces.push_back(vector / static_cast<float>(*width));
     }
 }
 

@@ -8,7 +8,7 @@ namespace nacre {
 namespace {
 
 // In the order of FindingCode.
-constexpr std::array<std::string_view, 22> kNames = {"transfer-curve-left",
+constexpr std::array<std::string_view, 23> kNames = {"transfer-curve-left",
                                                      "transfer-curve-taken",
                                                      "lights-near",
                                                      "lights-ill-placed",
@@ -25,6 +25,7 @@ constexpr std::array<std::string_view, 22> kNames = {"transfer-curve-left",
                                                      "methods-disagree",
                                                      "unexplained",
                                                      "no-method",
+                                                     "lights-placed",
                                                      "photographs-left-out",
                                                      "intensities-estimated",
                                                      "intensities-corrected",

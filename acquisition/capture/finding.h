@@ -26,6 +26,7 @@ enum class FindingCode {
     unexplained,
     noMethod,
     // Remarks: what was done.
+    lightsPlaced,
     photographsLeftOut,
     intensitiesEstimated,
     intensitiesCorrected,

@@ -85,9 +85,10 @@ Image finishAlbedo(const Capture& capture, PreparedCapture& prepared, const Norm
     for (BakedMaterial& material : baked) {
         tables.push_back(&material.baked.table);
     }
+    const LocalLights lights = prepared.localLights();
     BlockWalk walk(prepared.blocks, clock, progress, "albedo");
     while (const Observations* block = walk.next()) {
-        refitAlbedo(*block, normals, prepared.rig.lights, labels, tables, threads, albedo);
+        refitAlbedo(*block, normals, lights, labels, tables, threads, albedo);
     }
     const std::vector<glm::vec3> scales = finishAlbedo(capture, labels, tables, albedo);
     for (size_t i = 0; i < baked.size(); ++i) {
@@ -126,13 +127,15 @@ NormalsAndSamples estimateAndSample(PreparedCapture& prepared, const Capture& ca
     clock.enter("choosing");
     const ChosenMethod chosen =
         chooseMethod(prepared.reconciled.sample, prepared.checked, segmentation, options.normals);
-    NormalsAndSamples result{startEstimate(prepared, chosen), startSamples(capture, segmentation)};
+    const LocalLights lights = prepared.localLights();
+    NormalsAndSamples result{startEstimate(prepared, chosen),
+                             startSamples(capture, lights, segmentation, options.bake)};
     BlockWalk walk(prepared.blocks, clock, progress, "normals");
     while (const Observations* block = walk.next()) {
         const NormalBlock normals = estimateNormals(prepared, chosen, segmentation, *block);
         storeNormals(*block, normals, options.keepVerdicts, result.estimate);
         clock.enter("samples");
-        gatherSamples(*block, normals, prepared.rig.lights, segmentation, options, result.gathered);
+        gatherSamples(*block, normals, lights, segmentation, options, result.gathered);
     }
     finishEstimate(capture, result.estimate);
     return result;

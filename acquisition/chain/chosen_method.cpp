@@ -32,6 +32,7 @@ ChosenMethod chooseMethod(const CaptureSample& sample, const CheckedSample& chec
     chosen.estimators = {
         makeNormalEstimator(intensitiesOf(sample.seen, sample.lights), sample.lights, options, report)};
     chosen.method = report.method;
+    chosen.heldOutError = report.heldOutError;
     chosen.findings = std::move(report.findings);
     append(chosen.findings, methodWarnings(checked, chosen.method, chosen.estimators.front()));
     return chosen;

@@ -12,6 +12,7 @@ struct ChosenMethod {
     NormalMethod method = NormalMethod::consensus; // of the material with most pixels
     std::vector<NormalEstimator> estimators;       // one a material, or one for all
     std::vector<Finding> findings;
+    double heldOutError = 0; // NormalReport's, of an object of one material
 };
 
 // For an object of one material. Methods that look at the whole object (auto, exemplar) do so on the sample.

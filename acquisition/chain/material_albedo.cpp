@@ -31,7 +31,7 @@ glm::vec3 finishOne(const Capture& capture, const std::vector<uint8_t>& object, 
 
 } // namespace
 
-void refitAlbedo(const Observations& block, const NormalMap& normals, const std::vector<Light>& lights,
+void refitAlbedo(const Observations& block, const NormalMap& normals, const LocalLights& lights,
                  std::span<const uint8_t> labels, std::span<BrdfTable* const> tables, int threads, Image& albedo)
 {
     if (tables.size() == 1) {

@@ -10,7 +10,7 @@
 namespace nacre {
 
 // refitAlbedo of albedo_factor.h with every pixel's own material; labels are indices into `tables`.
-void refitAlbedo(const Observations& block, const NormalMap& normals, const std::vector<Light>& lights,
+void refitAlbedo(const Observations& block, const NormalMap& normals, const LocalLights& lights,
                  std::span<const uint8_t> labels, std::span<BrdfTable* const> tables, int threads, Image& albedo);
 
 // Smooths factors in where the capture marks it, and makes their mean 1 over each material's pixels: no material's

@@ -19,25 +19,27 @@ void storeAlbedo(const Observations& block, const std::vector<glm::vec3>& factor
 
 } // namespace
 
-MaterialSamples startSamples(const Capture& capture, const Segmentation& segmentation)
+MaterialSamples startSamples(const Capture& capture, const LocalLights& lights, const Segmentation& segmentation,
+                             const BakeOptions& options)
 {
-    return {std::vector<BrdfSamples>(segmentation.regions.size()), {}, Image(capture.width, capture.height, 3)};
+    BrdfSamples none;
+    none.domain = tableDomain(lights.over(capture), options);
+    return {std::vector<BrdfSamples>(segmentation.regions.size(), none), {}, Image(capture.width, capture.height, 3)};
 }
 
-void gatherSamples(const Observations& block, const NormalBlock& normals, const std::vector<Light>& lights,
+void gatherSamples(const Observations& block, const NormalBlock& normals, const LocalLights& lights,
                    const Segmentation& segmentation, const AcquireOptions& options, MaterialSamples& gathered)
 {
-    const std::vector<glm::vec3> factors = albedoFactors(block, normals, lights);
+    const std::vector<glm::vec3> factors = albedoFactors(block, normals, lights.reference());
     storeAlbedo(block, factors, gathered.albedo);
     const auto label = [&](uint32_t pixel) -> size_t {
         return segmentation.inner[pixel] ? segmentation.labels[pixel] : kUnlabelled;
     };
     const auto take = [&](size_t material, const BlockPart& part) {
         const double observations =
-            static_cast<double>(segmentation.regions[material].inner) * static_cast<double>(lights.size());
+            static_cast<double>(segmentation.regions[material].inner) * static_cast<double>(block.lightCount);
         const double share = static_cast<double>(options.samples.most) / std::max(observations, 1.0);
         BrdfSamples& samples = gathered.samples[material];
-        samples.domain = tableDomain(lights, options.bake);
         gatherSamples(part.seen, part.normals, part.albedo, lights, share, options.samples, samples, gathered.counts);
     };
     forEachMaterial(block, normals, factors, gathered.samples.size(), label, take);

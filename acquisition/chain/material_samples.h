@@ -13,10 +13,11 @@ struct MaterialSamples {
     Image albedo;                     // a first factor of every pixel, over whole photographs
 };
 
-MaterialSamples startSamples(const Capture& capture, const Segmentation& segmentation);
+MaterialSamples startSamples(const Capture& capture, const LocalLights& lights, const Segmentation& segmentation,
+                             const BakeOptions& options);
 
 // Adds a block's samples and factors.
-void gatherSamples(const Observations& block, const NormalBlock& normals, const std::vector<Light>& lights,
+void gatherSamples(const Observations& block, const NormalBlock& normals, const LocalLights& lights,
                    const Segmentation& segmentation, const AcquireOptions& options, MaterialSamples& gathered);
 
 } // namespace nacre

@@ -1,9 +1,11 @@
 #pragma once
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "acquisition/chain/block_walk.h"
 #include "acquisition/chain/chosen_method.h"
+#include "acquisition/near_field/as_if_distant.h"
 
 namespace nacre {
 
@@ -35,22 +37,23 @@ struct PreparedCapture {
     Rig rig;                   // of these, irradiances as corrected
     ReconciledPhotographs reconciled;
     CheckedSample checked;
-    double lambertianMisfit = 0; // see lambertian_misfit.h
-};
+    double lambertianMisfit = 0;        // see lambertian_misfit.h
+    std::optional<NearField> nearField; // none: lights are distant, the camera is orthographic
+    SurfaceGuess guess;                 // what nearField has to know of the surface
+    std::vector<Finding> placed;        // how nearField is known
+    int threads = 0;
 
-PreparedCapture prepareCapture(const Capture& capture, const AcquireOptions& options, StageClock& clock,
-                               const Progress& progress);
+    LocalLights localLights() const;
+};
 
 // An estimate without normals yet: what was found out before any.
 NormalEstimate startEstimate(const PreparedCapture& prepared, const ChosenMethod& chosen);
-// A block's normals. Pixels that the capture marks to be smoothed over get none, so no samples either.
+// A block's normals, in the camera frame. Pixels that the capture marks to be smoothed over get none, so no samples
+// either.
 NormalBlock estimateNormals(const PreparedCapture& prepared, const ChosenMethod& chosen, const Segmentation& materials,
                             const Observations& block);
 void storeNormals(const Observations& block, const NormalBlock& normals, bool keepVerdicts, NormalEstimate& estimate);
 // What can be said of the whole map, and marked pixels smoothed in.
 void finishEstimate(const Capture& capture, NormalEstimate& estimate);
-
-// Photographs -> lights -> normals, of an object of one material.
-NormalEstimate estimateCaptureNormals(const Capture& capture, const AcquireOptions& options, const Progress& progress);
 
 } // namespace nacre

@@ -166,8 +166,9 @@ CheckedSample checkCapture(const Observations& sample, const std::vector<Light>&
     checked.consensus = makeConsensusEstimator(lights, quick)(checked.intensities);
     checked.scatter = matteScatter(checked.intensities, checked.consensus, lights,
                                    matteObservations(checked.intensities, checked.consensus, lights));
-    if (const auto defect = findDefect(checked.seen, lights, quick, checked.scatter)) {
-        warnings.push_back(findingOf(*defect, checked.scatter));
+    checked.defect = findDefect(checked.seen, lights, quick, checked.scatter);
+    if (checked.defect) {
+        warnings.push_back(findingOf(*checked.defect, checked.scatter));
     }
     const double misfit = lightMisfitDegrees(checked.intensities, checked.consensus, lights);
     if (misfit > kLargestMisfit) {

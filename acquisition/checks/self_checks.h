@@ -1,9 +1,11 @@
 #pragma once
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "acquisition/capture/finding.h"
 #include "acquisition/capture/observations.h"
+#include "acquisition/checks/what_if.h"
 #include "acquisition/normals/normals.h"
 
 namespace nacre {
@@ -16,6 +18,7 @@ struct CheckedSample {
     NormalBlock consensus;
     double scatter = 0; // from Lambert's law, see matte_scatter.h
     double instability = 0;
+    std::optional<CaptureDefect> defect;
     std::vector<Finding> findings;
 };
 

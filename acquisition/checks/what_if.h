@@ -2,6 +2,8 @@
 #include <optional>
 
 #include "acquisition/capture/observations.h"
+#include "acquisition/checks/matte_scatter.h"
+#include "acquisition/near_field/near_field.h"
 #include "acquisition/normals/normals.h"
 
 namespace nacre {
@@ -13,6 +15,11 @@ struct CaptureDefect {
     double size = 0;    // the exponent that undoes it; the distance of the lights in widths of the object
     double scatter = 0; // that is left, see matte_scatter.h
 };
+
+// matteScatter of what is seen where lights and camera stand as `near` says, by consensus in a few steps, since a
+// normal has to be known for its own light to be exchanged for the distant one. `height`: see LocalLights.
+double scatterAtDistance(const Observations& seen, const std::vector<Light>& lights, const NearField& near,
+                         const Image& height, const NormalEstimator& consensus, const MatteChoice& matte);
 
 // Tries transfer curves (powers of the photographs' values) and finite distances of the lights, on a few hundred pixels
 // of the object, and answers what explains best, if that is far better than taking the capture as it is. `width`: of

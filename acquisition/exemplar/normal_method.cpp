@@ -98,6 +98,7 @@ NormalEstimator chosenEstimator(const Intensities& sample, const std::vector<Lig
     report.findings.push_back(
         {FindingCode::methodChosen, fmt::format("auto: {}, by the error on {} held-out lights: {}",
                                                 nameOf(report.method), split->heldOut.size(), said)});
+    report.heldOutError = meanOf(best);
     if (meanOf(best) > kUnexplained) {
         report.findings.push_back(
             {FindingCode::noMethod,

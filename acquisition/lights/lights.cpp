@@ -69,7 +69,6 @@ namespace {
 
 // Beyond it, an error of 1 % in the photographs can turn the normal by more than it is long.
 constexpr double kWorstLightCondition = 100;
-constexpr double kLargestNearTurn = 2; // degrees
 // Of photographs against the model, and what it may make of the normals in degrees: as much as gloss does to methods
 // that do not know it.
 constexpr double kUsualError = 0.01;
@@ -150,23 +149,6 @@ void addIrradiances(const Capture& capture, const CalibrationOptions& options, R
     }
 }
 
-// How far the direction to a light at a finite distance turns from the object's middle to its edge, in degrees.
-void warnOfNearLights(const Capture& capture, Rig& rig)
-{
-    if (!capture.lightDistance || !capture.objectWidth) {
-        return;
-    }
-    const double degrees = glm::degrees(std::atan2(*capture.objectWidth / 2, *capture.lightDistance));
-    if (degrees > kLargestNearTurn) {
-        rig.warnings.push_back(
-            {FindingCode::lightsNear,
-             fmt::format(
-                 "the lights are not distant: with a width of {:g} at a distance of {:g}, their directions turn "
-                 "by {:.1f} degrees from the object's middle to its edge ({:.0f} are harmless)",
-                 *capture.objectWidth, *capture.lightDistance, degrees, kLargestNearTurn)});
-    }
-}
-
 } // namespace
 
 double conditionOf(const std::vector<Light>& lights)
@@ -235,7 +217,6 @@ Rig calibrateLights(const Capture& capture, const CalibrationOptions& options)
         addIrradiances(capture, options, rig);
     }
     rig.condition = requireSpanningLights(rig.lights, capture.folder);
-    warnOfNearLights(capture, rig);
     return rig;
 }
 

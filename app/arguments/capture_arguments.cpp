@@ -1,6 +1,7 @@
 #include "app/arguments/capture_arguments.h"
 
 #include <algorithm>
+#include <limits>
 
 #include <fmt/format.h>
 
@@ -44,6 +45,37 @@ OffsetChoice offsetChoiceOf(const std::string& text)
     return {false, static_cast<float>(*value)};
 }
 
+std::optional<double> lightDistanceOf(const std::string& text)
+{
+    if (text.empty() || text == "auto") {
+        return {};
+    }
+    if (text == "far") {
+        return std::numeric_limits<double>::infinity();
+    }
+    const std::optional<double> widths = parseNumber(text);
+    if (!widths || !(*widths > 0)) {
+        throw Error("", fmt::format("--light-distance {} is not understood", text),
+                    "a number of object widths above 0, far or auto", Error::kUsage);
+    }
+    return widths;
+}
+
+void requireLength(const std::optional<double>& width)
+{
+    if (width && !(*width > 0)) {
+        throw Error("", fmt::format("--object-width {:g} is not possible", *width), "a length above 0", Error::kUsage);
+    }
+}
+
+void requireView(const std::optional<double>& degrees)
+{
+    if (degrees && !(*degrees > 0 && *degrees <= kWidestView)) {
+        throw Error("", fmt::format("--field-of-view {:g} is not possible", *degrees),
+                    fmt::format("degrees above 0, {:g} at most", kWidestView), Error::kUsage);
+    }
+}
+
 LightChoice lightChoiceOf(const std::optional<int>& given)
 {
     if (given && *given < kFewestLightsGiven) {
@@ -81,6 +113,23 @@ void CalibrationArguments::addTo(CLI::App& command)
     command.add_option("--compare-rig", compareRig, "File of lights to compare the directions with, in degrees")
         ->option_text("FILE")
         ->group(kLights);
+    command
+        .add_option("--light-distance", lightDistance,
+                    "Distance of the lights from the object's middle in widths of the object; far: distant; auto: near "
+                    "where the photographs tell (default: that of capture.json, else auto)")
+        ->option_text("WIDTHS|far|auto")
+        ->group(kLights);
+    command
+        .add_option("--object-width", capture.objectWidth,
+                    "Width of the object in the unit of the lights' vectors, which are then their places")
+        ->option_text("LENGTH")
+        ->group(kLights);
+    command
+        .add_option(
+            "--field-of-view", capture.fieldOfView,
+            "Degrees that the photographs' width covers (default: that of capture.json, else the camera is far)")
+        ->option_text("DEGREES")
+        ->group(kPhotographs);
     command
         .add_option("--transfer", transfer,
                     "Transfer curve of the photographs (default: as the files declare, else linear)")
@@ -157,6 +206,9 @@ Capture CalibrationArguments::load()
     if (!offset.empty()) {
         capture.offset = offsetChoiceOf(offset);
     }
+    capture.lightDistance = lightDistanceOf(lightDistance);
+    requireLength(capture.objectWidth);
+    requireView(capture.fieldOfView);
     Capture loaded = loadCapture(folder, capture);
     if (loaded.lights.empty() && !loaded.mirrorSphere) {
         throw Error(folder, "says nothing of its lights",

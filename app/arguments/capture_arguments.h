@@ -15,6 +15,7 @@ struct CalibrationArguments {
     CaptureOptions capture;
     std::string transfer;
     std::string offset;
+    std::string lightDistance;
     std::vector<float> sphereReflectance;
     std::filesystem::path compareRig;
     int threads = 0;

@@ -121,6 +121,12 @@ void addSynthCommand(CLI::App& app)
         ->capture_default_str();
     command->add_option("--cap-degrees", o.capDegrees, "Largest angle between a light and the view in degrees")
         ->capture_default_str();
+    command
+        ->add_option("--light-distance", o.lightDistance,
+                     "Distance of the lights from the object's middle in widths of the object (0: distant)")
+        ->capture_default_str();
+    command->add_option("--field-of-view", o.fieldOfView, "Degrees that the width covers (0: the camera is distant)")
+        ->capture_default_str();
     command->add_option("--seed", o.seed, "Seed of lights and noise")->capture_default_str();
     command->add_option("--threads", o.threads, "Number of threads (0: all)")->capture_default_str();
     command->add_flag("--force", arguments->force, "Replacement of existing outputs");

@@ -122,6 +122,19 @@ std::optional<double> BumpySolid::depthTowardsCamera(double x, double y) const
     return t ? std::optional(-*t) : std::nullopt;
 }
 
+std::optional<dvec3> BumpySolid::seenFrom(const dvec3& camera, const dvec3& through) const
+{
+    const dvec3 ray = glm::normalize(through - camera);
+    const double along = -glm::dot(camera, ray), beside2 = glm::dot(camera, camera) - along * along,
+                 reach2 = boundingRadius_ * boundingRadius_ - beside2;
+    if (reach2 <= 0) {
+        return std::nullopt;
+    }
+    const double reach = std::sqrt(reach2);
+    const std::optional<double> t = firstHit(camera, ray, along - reach, along + reach);
+    return t ? std::optional(camera + *t * ray) : std::nullopt;
+}
+
 bool BumpySolid::reachesLight(const dvec3& surfacePoint, const dvec3& light) const
 {
     if (glm::dot(gradient(surfacePoint), light) <= 0.0) {
@@ -184,7 +197,7 @@ size_t patchMaterial(const glm::dvec3& direction, size_t materials)
     return nearest % materials;
 }
 
-glm::dvec2 OrthographicView::planePoint(uint32_t pixel) const
+glm::dvec2 SolidView::planePoint(uint32_t pixel) const
 {
     double halfSide = 0.5 * std::min(normals.width, normals.height);
     double x = pixel % normals.width + 0.5;
@@ -192,19 +205,41 @@ glm::dvec2 OrthographicView::planePoint(uint32_t pixel) const
     return {(x - 0.5 * normals.width) / halfSide, (0.5 * normals.height - y) / halfSide};
 }
 
-OrthographicView viewOf(const BumpySolid& solid, int width, int height, int threads)
+namespace {
+
+std::optional<dvec3> seenThrough(const BumpySolid& solid, const glm::dvec2& onPlane, double cameraDistance)
 {
-    OrthographicView view;
+    if (!std::isinf(cameraDistance)) {
+        return solid.seenFrom({0, 0, cameraDistance}, {onPlane, 0});
+    }
+    const std::optional<double> depth = solid.depthTowardsCamera(onPlane.x, onPlane.y);
+    return depth ? std::optional(dvec3(onPlane, *depth)) : std::nullopt;
+}
+
+} // namespace
+
+dvec3 SolidView::towardsCamera(uint32_t pixel) const
+{
+    return std::isinf(cameraDistance) ? dvec3(0, 0, 1)
+                                      : glm::normalize(dvec3(0, 0, cameraDistance) - surfacePoint(pixel));
+}
+
+SolidView viewOf(const BumpySolid& solid, int width, int height, int threads, double fieldOfView)
+{
+    SolidView view;
+    if (fieldOfView > 0) {
+        view.cameraDistance =
+            width / static_cast<double>(std::min(width, height)) / std::tan(fieldOfView / 2 * std::numbers::pi / 180);
+    }
     view.normals = NormalMap(width, height);
     view.depth.assign(view.normals.normals.size(), 0.0);
     view.mask.assign(view.depth.size(), 0);
     parallelFor(height, 8, threads, [&](size_t first, size_t last) {
         for (uint32_t pixel = first * width; pixel < last * width; ++pixel) {
-            glm::dvec2 p = view.planePoint(pixel);
-            if (std::optional<double> z = solid.depthTowardsCamera(p.x, p.y)) {
+            if (const std::optional<dvec3> point = seenThrough(solid, view.planePoint(pixel), view.cameraDistance)) {
                 view.mask[pixel] = 1;
-                view.depth[pixel] = *z;
-                view.normals.normals[pixel] = glm::vec3(solid.normal({p, *z}));
+                view.depth[pixel] = point->z;
+                view.normals.normals[pixel] = glm::vec3(solid.normal(*point));
                 view.normals.confidence[pixel] = 1.0f;
             }
         }

@@ -1,6 +1,7 @@
 #pragma once
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -32,6 +33,8 @@ public:
 
     // z of the surface's point nearest to a camera that looks along -z at (x, y); empty beside the solid.
     std::optional<double> depthTowardsCamera(double x, double y) const;
+    // The surface's point that a camera outside the solid sees towards `through`; empty beside the solid.
+    std::optional<glm::dvec3> seenFrom(const glm::dvec3& camera, const glm::dvec3& through) const;
     // Whether the ray from a surface point towards a distant light (unit direction) leaves the solid freely.
     bool reachesLight(const glm::dvec3& surfacePoint, const glm::dvec3& light) const;
 
@@ -53,18 +56,24 @@ BumpySolid bumpySolid();
 // of some 40 degrees, nearest-point cells around a Fibonacci spiral on the sphere, the materials in turn.
 size_t patchMaterial(const glm::dvec3& direction, size_t materials);
 
-// What a distant camera that looks along -z sees of a solid: pixel centres are sampled, so that every value is exact.
-// The picture's shorter side spans [-1, 1]; x right, y up, the picture's middle is the origin.
-struct OrthographicView {
-    NormalMap normals;          // confidence 1 on the solid
-    std::vector<double> depth;  // z of the surface; 0 beside the solid
-    std::vector<uint8_t> mask;  // 1 on the solid
-    std::vector<uint32_t> seen; // indices of the mask's pixels, ascending
+// What a camera that looks along -z sees of a solid: pixel centres are sampled, so that every value is exact. On the
+// plane z = 0 the picture's shorter side spans [-1, 1]; x right, y up, the picture's middle is the origin.
+struct SolidView {
+    NormalMap normals;                                               // confidence 1 on the solid
+    std::vector<double> depth;                                       // z of the surface; 0 beside the solid
+    std::vector<uint8_t> mask;                                       // 1 on the solid
+    std::vector<uint32_t> seen;                                      // indices of the mask's pixels, ascending
+    double cameraDistance = std::numeric_limits<double>::infinity(); // from the origin; infinite: orthographic
 
-    glm::dvec2 planePoint(uint32_t pixel) const;
-    glm::dvec3 surfacePoint(uint32_t pixel) const { return {planePoint(pixel), depth[pixel]}; }
+    glm::dvec2 planePoint(uint32_t pixel) const; // where the pixel's ray meets z = 0
+    glm::dvec3 surfacePoint(uint32_t pixel) const
+    {
+        return {planePoint(pixel) * (1 - depth[pixel] / cameraDistance), depth[pixel]};
+    }
+    glm::dvec3 towardsCamera(uint32_t pixel) const; // unit, from the surface point
 };
 
-OrthographicView viewOf(const BumpySolid& solid, int width, int height, int threads);
+// `fieldOfView`: degrees that the picture's width covers; 0: the camera is distant.
+SolidView viewOf(const BumpySolid& solid, int width, int height, int threads, double fieldOfView = 0);
 
 } // namespace nacre

@@ -68,7 +68,9 @@ Json photographDocument(const SynthScene& scene, size_t index)
         }
     }
     if (options.giveLights) {
-        photograph["light"] = jsonOf(scene.lights[index]);
+        Light light = scene.lights[index];
+        light.direction *= options.lightDistance > 0 ? static_cast<float>(options.lightDistance) : 1.0f;
+        photograph["light"] = jsonOf(light);
     }
     return photograph;
 }
@@ -132,6 +134,12 @@ std::string captureDocument(const SynthScene& scene)
               {"transfer", "linear"},
               {"mask", "mask.png"},
               {"truthNormals", "truth/normals.exr"}};
+    if (scene.options.giveLights && scene.options.lightDistance > 0) {
+        json["objectWidth"] = 1; // the lights' vectors are their places
+    }
+    if (scene.options.giveLights && scene.options.fieldOfView > 0) {
+        json["fieldOfView"] = scene.options.fieldOfView;
+    }
     for (size_t i = 0; i < scene.lights.size(); ++i) {
         json["photographs"].push_back(photographDocument(scene, i));
     }

@@ -82,7 +82,9 @@ constexpr double kExposedValue = 0.7;
 constexpr double kLargestSphereValue = 0.9;
 // Pixels that the percentiles are taken from, evenly spread over the object.
 constexpr size_t kPercentilePixels = 4096;
-constexpr size_t kMostMaterials = 16; // 30 patches
+constexpr double kNearestSynthLight = 1; // widths of the object
+constexpr double kWidestSynthView = 60;  // degrees: the camera stays outside the solid
+constexpr size_t kMostMaterials = 16;    // 30 patches
 
 void require(bool condition, const char* wrong, const char* expected)
 {
@@ -98,6 +100,10 @@ void check(const SynthOptions& o)
     require(o.lights >= 1, "there are no lights", "one light or more");
     require(o.capDegrees > 0 && o.capDegrees < 90, "the cap of lights is out of range",
             "more than 0 and less than 90 degrees");
+    require(o.lightDistance == 0 || o.lightDistance >= kNearestSynthLight, "the lights are too near",
+            "1 width of the object or more");
+    require(o.fieldOfView >= 0 && o.fieldOfView <= kWidestSynthView, "the field of view is out of range",
+            "0 to 60 degrees");
     require(o.noise >= 0 && o.noise < 1, "the noise is out of range", "0 or more and less than 1");
     require(o.patches.size() < kMostMaterials, "there are too many materials", "16 at most");
     require(!o.exposures.empty(), "there are no exposures", "relative times such as 1,0.25");
@@ -110,7 +116,7 @@ BumpySolid solidOf(SynthShape shape)
     return shape == SynthShape::sphere ? plainSphere() : bumpySolid();
 }
 
-std::vector<uint8_t> labelsOf(const OrthographicView& view, size_t materials)
+std::vector<uint8_t> labelsOf(const SolidView& view, size_t materials)
 {
     std::vector<uint8_t> labels(view.mask.size(), SynthScene::kNoMaterial);
     for (const uint32_t pixel : view.seen) {
@@ -119,17 +125,29 @@ std::vector<uint8_t> labelsOf(const OrthographicView& view, size_t materials)
     return labels;
 }
 
-bool isLit(const SynthScene& scene, uint32_t pixel, const Light& light)
+// Half the picture's shorter side is the view's unit.
+void placeObject(SynthScene& scene)
 {
-    return dot(scene.view.normals.normals[pixel], light.direction) > 0.0f &&
-           (!scene.options.shadows || scene.solid.reachesLight(scene.view.surfacePoint(pixel), light.direction));
+    glm::dvec2 least(1e9), most(-1e9);
+    for (const uint32_t pixel : scene.view.seen) {
+        least = glm::min(least, scene.view.planePoint(pixel));
+        most = glm::max(most, scene.view.planePoint(pixel));
+    }
+    scene.middle = glm::dvec3(0.5 * (least + most), 0);
+    scene.lightDistance = scene.options.lightDistance * std::max(most.x - least.x, most.y - least.y);
 }
 
-vec3 pixelRadiance(const SynthScene& scene, uint32_t pixel, const Light& light)
+bool isLit(const SynthScene& scene, uint32_t pixel, const Light& met)
+{
+    return dot(scene.view.normals.normals[pixel], met.direction) > 0.0f &&
+           (!scene.options.shadows || scene.solid.reachesLight(scene.view.surfacePoint(pixel), met.direction));
+}
+
+vec3 pixelRadiance(const SynthScene& scene, uint32_t pixel, const Light& met)
 {
     const vec3& n = scene.view.normals.normals[pixel];
-    vec3 f = evaluate(scene.models[scene.labels[pixel]], n, light.direction, vec3(0, 0, 1));
-    return radianceFromBrdf(f, light.irradiance, dot(n, light.direction));
+    vec3 f = evaluate(scene.models[scene.labels[pixel]], n, met.direction, vec3(scene.view.towardsCamera(pixel)));
+    return radianceFromBrdf(f, met.irradiance, dot(n, met.direction));
 }
 
 // Brightest channels of a part of the object's pixels under every light.
@@ -142,8 +160,9 @@ std::vector<float> sampledRadiance(const SynthScene& scene)
     parallelFor(samples, 64, scene.options.threads, [&](size_t first, size_t last) {
         for (size_t i = first; i < last; ++i) {
             for (size_t j = 0; j < scene.lights.size(); ++j) {
-                if (isLit(scene, seen[i * stride], scene.lights[j])) {
-                    vec3 radiance = pixelRadiance(scene, seen[i * stride], scene.lights[j]);
+                const Light met = lightAt(scene, seen[i * stride], scene.lights[j]);
+                if (isLit(scene, seen[i * stride], met)) {
+                    vec3 radiance = pixelRadiance(scene, seen[i * stride], met);
                     brightest[i * scene.lights.size() + j] = max(radiance.x, max(radiance.y, radiance.z));
                 }
             }
@@ -185,12 +204,25 @@ SynthScene makeSynthScene(const SynthOptions& options)
         models.push_back(parseMaterial(patch, options.fitsFolder).model);
     }
     BumpySolid solid = solidOf(options.shape);
-    OrthographicView view = viewOf(solid, options.width, options.height, options.threads);
+    SolidView view = viewOf(solid, options.width, options.height, options.threads, options.fieldOfView);
     std::vector<uint8_t> labels = labelsOf(view, models.size());
     SynthScene scene{
-        options, std::move(solid), std::move(view), synthLights(options), std::move(models), std::move(labels), {}};
+        options, std::move(solid), std::move(view), synthLights(options), {}, 0, std::move(models), std::move(labels),
+        {}};
+    placeObject(scene);
     scene.sensor = exposedSensor(scene);
     return scene;
+}
+
+Light lightAt(const SynthScene& scene, uint32_t pixel, const Light& light)
+{
+    if (scene.lightDistance <= 0) {
+        return light;
+    }
+    const glm::dvec3 towards =
+        scene.middle + scene.lightDistance * glm::dvec3(light.direction) - scene.view.surfacePoint(pixel);
+    const double share = scene.lightDistance / glm::length(towards);
+    return {glm::vec3(glm::normalize(towards)), light.irradiance * static_cast<float>(share * share)};
 }
 
 std::vector<uint8_t> litPixels(const SynthScene& scene, const Light& light, int threads)
@@ -198,7 +230,8 @@ std::vector<uint8_t> litPixels(const SynthScene& scene, const Light& light, int 
     std::vector<uint8_t> lit(scene.view.mask.size(), 0);
     parallelFor(scene.view.seen.size(), 1024, threads, [&](size_t first, size_t last) {
         for (size_t i = first; i < last; ++i) {
-            lit[scene.view.seen[i]] = isLit(scene, scene.view.seen[i], light);
+            const uint32_t pixel = scene.view.seen[i];
+            lit[pixel] = isLit(scene, pixel, lightAt(scene, pixel, light));
         }
     });
     return lit;
@@ -210,8 +243,9 @@ Image objectRadiance(const SynthScene& scene, const Light& light, int threads)
     parallelFor(scene.view.seen.size(), 1024, threads, [&](size_t first, size_t last) {
         for (size_t i = first; i < last; ++i) {
             uint32_t pixel = scene.view.seen[i];
-            if (isLit(scene, pixel, light)) {
-                radiance.setRgb(pixel % radiance.width, pixel / radiance.width, pixelRadiance(scene, pixel, light));
+            const Light met = lightAt(scene, pixel, light);
+            if (isLit(scene, pixel, met)) {
+                radiance.setRgb(pixel % radiance.width, pixel / radiance.width, pixelRadiance(scene, pixel, met));
             }
         }
     });

@@ -27,6 +27,8 @@ struct SynthOptions {
     std::filesystem::path fitsFolder; // of the published fits
     int lights = 36;
     double capDegrees = 50;                  // largest angle between a light and the view
+    double lightDistance = 0;                // of all lights, in widths of the object; 0: they are distant
+    double fieldOfView = 0;                  // degrees that the picture's width covers; 0: the camera is distant
     double leastIrradiance = 0.7;            // of a light's channel, drawn evenly from [least, largest]
     double largestIrradiance = 1.3;          //
     bool shadows = true;                     // cast ones; attached ones are part of the reflectance equation
@@ -63,8 +65,10 @@ struct SynthScene {
 
     SynthOptions options;
     BumpySolid solid;
-    OrthographicView view;
-    std::vector<Light> lights;
+    SolidView view;
+    std::vector<Light> lights; // as the middle of the object's outline meets them
+    glm::dvec3 middle{0};      // of the outline, in the view's unit
+    double lightDistance = 0;  // from there in that unit; 0: distant
     std::vector<BrdfModel> models;
     std::vector<uint8_t> labels; // per pixel of the photograph: index into models; kNoMaterial beside the object
     // Gain and noise serve the whole capture, spheres included; each photograph's values are gain * radiance.
@@ -73,6 +77,9 @@ struct SynthScene {
 
 // Throws Error (usage) where an option makes no capture.
 SynthScene makeSynthScene(const SynthOptions& options);
+
+// The light as the pixel's surface point meets it.
+Light lightAt(const SynthScene& scene, uint32_t pixel, const Light& light);
 
 // 1 where the light reaches the pixel's surface point: neither attached nor cast shadow (the latter where asked for).
 std::vector<uint8_t> litPixels(const SynthScene& scene, const Light& light, int threads);

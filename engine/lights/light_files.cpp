@@ -74,6 +74,7 @@ LightFile loadLightsJson(const fs::path& file)
                              "a photograph and an irradiance for all lights or for none");
         }
         Light light{directionOf(node.at("direction")), glm::vec3(1)};
+        result.vectors.push_back(node.at("direction").vector3());
         if (const auto irradiance = node.find("irradiance")) {
             light.irradiance = irradianceOf(*irradiance);
             result.irradianceGiven = true;
@@ -97,11 +98,7 @@ LightFile loadLightFile(const fs::path& file)
     if (extension == ".json") {
         return loadLightsJson(file);
     }
-    LightFile result;
-    for (const glm::vec3& direction : loadDirections(file)) {
-        result.lights.push_back({direction, glm::vec3(1)});
-    }
-    return result;
+    return loadDirectionTable(file);
 }
 
 namespace {
@@ -159,21 +156,23 @@ LightFile loadLpFile(const fs::path& file)
                         kDirection);
         }
         result.photographs.emplace_back(line->photograph);
+        result.vectors.push_back(line->vector);
         result.lights.push_back({normalized(line->vector), glm::vec3(1)});
     }
     return result;
 }
 
-std::vector<glm::vec3> loadDirections(const fs::path& file)
+LightFile loadDirectionTable(const fs::path& file)
 {
-    std::vector<glm::vec3> directions = vectorsOf(file, loadNumberTable(file));
-    for (glm::vec3& v : directions) {
+    LightFile result;
+    result.vectors = vectorsOf(file, loadNumberTable(file));
+    for (const glm::vec3& v : result.vectors) {
         if (!isDirection(v)) {
-            throw Error(file, fmt::format("light {} is {}", &v - directions.data() + 1, described(v)), kDirection);
+            throw Error(file, fmt::format("light {} is {}", &v - result.vectors.data() + 1, described(v)), kDirection);
         }
-        v = normalized(v);
+        result.lights.push_back({normalized(v), glm::vec3(1)});
     }
-    return directions;
+    return result;
 }
 
 std::vector<glm::vec3> loadIrradiances(const fs::path& file)

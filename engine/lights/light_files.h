@@ -14,6 +14,7 @@ class JsonNode;
 // Lights as a file gives them, directions normalised.
 struct LightFile {
     std::vector<Light> lights;
+    std::vector<glm::vec3> vectors;       // as the file has them: places, where their unit is known
     std::vector<std::string> photographs; // one name per light, folders in front possible; empty where none is named
     bool irradianceGiven = false;         // false: irradiance 1
 };
@@ -28,8 +29,8 @@ LightFile loadLpFile(const std::filesystem::path& file);
 LightFile loadLpList(const std::filesystem::path& file);
 
 // Three numbers a line, or three lines of equal length; three by three is three numbers a line. The count of lights
-// may stand before them. Directions are normalised, zero is refused.
-std::vector<glm::vec3> loadDirections(const std::filesystem::path& file);
+// may stand before them. Directions are normalised, zero is refused. Irradiances are 1.
+LightFile loadDirectionTable(const std::filesystem::path& file);
 
 // The same for irradiances, all positive; a single number a line, or a single line, holds one for all three channels.
 std::vector<glm::vec3> loadIrradiances(const std::filesystem::path& file);

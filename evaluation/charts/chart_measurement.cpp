@@ -74,7 +74,7 @@ Surface ChartBaking::bake(const BrdfSetting& setting, double& seconds)
     }
     surface.albedo = found_.gathered.albedo;
     while (const Observations* block = prepared_.blocks.next()) {
-        refitAlbedo(*block, found_.estimate.normals, prepared_.rig.lights, segmentation_.labels, tables,
+        refitAlbedo(*block, found_.estimate.normals, prepared_.localLights(), segmentation_.labels, tables,
                     options_.bake.threads, surface.albedo);
     }
     finishAlbedo(capture_, segmentation_.labels, tables, surface.albedo);

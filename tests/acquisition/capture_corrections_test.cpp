@@ -148,7 +148,7 @@ TEST_F(CaptureCorrections, ARigMayHaveTheLightsOfAllOrOfTheRest)
     EXPECT_EQ(rest.lights[0].direction, glm::vec3(0, 0, 1));
     EXPECT_NE(rest.lightsOrder.find("by name"), std::string::npos);
     EXPECT_NE(all.lightsOrder.find("by order"), std::string::npos);
-    EXPECT_EQ(all.lights[0].direction, loadDirections(folder_ / "lights.txt")[1]);
+    EXPECT_EQ(all.lights[0].direction, loadDirectionTable(folder_ / "lights.txt").lights[1].direction);
 }
 
 TEST_F(CaptureCorrections, CropAndScaleTakeBoxesOfPixels)
@@ -228,17 +228,12 @@ TEST_F(CaptureCorrections, LabelsHaveThePhotographsSize)
     expectError([&] { load(files_, R"("labels": "labels.png")"); }, {"labels.png", "3 x 3", "8 x 6"});
 }
 
-TEST_F(CaptureCorrections, NearLightsAreWarnedOf)
+TEST_F(CaptureCorrections, DistancesCountInWidthsOfTheObject)
 {
-    const auto warnings = [&](const std::string& sizes) {
-        return calibrateLights(load(files_, R"("lights": "lights.txt", )" + sizes)).warnings;
-    };
-    // atan(0.1 / 2) = 2.86 degrees, atan(0.06 / 2) = 1.72 degrees
-    const auto near = warnings(R"("lightDistance": 2, "objectWidth": 0.2)");
-    ASSERT_EQ(near.size(), 1u);
-    EXPECT_EQ(near[0].code, FindingCode::lightsNear);
-    EXPECT_NE(near[0].text.find("2.9 degrees"), std::string::npos) << near[0].text;
-    EXPECT_TRUE(warnings(R"("lightDistance": 2, "objectWidth": 0.12)").empty());
+    const Capture capture = load(files_, R"("lights": "lights.txt", "lightDistance": 2, "objectWidth": 0.2)");
+    EXPECT_EQ(capture.lightDistance, 10);
+    EXPECT_TRUE(capture.lightPlaces.empty());
+    EXPECT_EQ(load(files_, R"("lights": "lights.txt", "fieldOfView": 20)").fieldOfView, 20);
 }
 
 TEST_F(CaptureCorrections, WhatIsWrongIsNamed)
@@ -256,6 +251,7 @@ TEST_F(CaptureCorrections, WhatIsWrongIsNamed)
     expectRefused(R"("crop": [0, 0, 2, 2], "scale": 0.25)", {"2 x 2", "1/4 to nothing"});
     expectRefused(R"("lightDistance": 2)", {"\"lightDistance\" alone"});
     expectRefused(R"("lightDistance": 0, "objectWidth": 1)", {"lightDistance is 0"});
+    expectRefused(R"("fieldOfView": 150)", {"fieldOfView is 150", "120"});
     expectError([&] { load(R"(["p1.png", {"file": "p2.png", "skip": 1}, "p3.png"])"); },
                 {"photographs[1].skip is a number", "true or false"});
 }

@@ -9,6 +9,15 @@
 namespace nacre {
 namespace {
 
+std::vector<glm::vec3> loadDirections(const std::filesystem::path& file)
+{
+    std::vector<glm::vec3> directions;
+    for (const Light& light : loadDirectionTable(file).lights) {
+        directions.push_back(light.direction);
+    }
+    return directions;
+}
+
 // Float rounding of a normalisation.
 constexpr float kUnitTolerance = 1e-6f;
 

@@ -10,9 +10,9 @@ namespace {
 
 using glm::dvec3;
 
-const OrthographicView& bumpyView()
+const SolidView& bumpyView()
 {
-    static const OrthographicView view = viewOf(bumpySolid(), 96, 96, 0);
+    static const SolidView view = viewOf(bumpySolid(), 96, 96, 0);
     return view;
 }
 
@@ -108,7 +108,7 @@ TEST(BumpySolid, CastsShadowsUnderObliqueLights)
 TEST(BumpySolid, ASphereCastsNone)
 {
     BumpySolid sphere = plainSphere();
-    OrthographicView view = viewOf(sphere, 64, 64, 0);
+    SolidView view = viewOf(sphere, 64, 64, 0);
     for (const dvec3& light : {lightAt(0, 0), lightAt(45, 30), lightAt(80, 200)}) {
         for (uint32_t pixel : view.seen) {
             dvec3 p = view.surfacePoint(pixel);
@@ -117,9 +117,9 @@ TEST(BumpySolid, ASphereCastsNone)
     }
 }
 
-TEST(OrthographicView, PutsYUpAndKeepsTheAspect)
+TEST(SolidView, PutsYUpAndKeepsTheAspect)
 {
-    OrthographicView view = viewOf(plainSphere(), 60, 40, 1);
+    SolidView view = viewOf(plainSphere(), 60, 40, 1);
     EXPECT_GT(view.normals.normals[view.normals.index(30, 4)].y, 0.5f) << "row 0 is the top";
     EXPECT_GT(view.normals.normals[view.normals.index(46, 20)].x, 0.5f);
     EXPECT_FALSE(view.mask[view.normals.index(5, 20)]);

@@ -69,7 +69,7 @@ void writeSatin(const fs::path& folder, const LambertGgx& model)
 
 void writePatches(const fs::path& folder)
 {
-    const OrthographicView view = viewOf(bumpySolid(), kSide, kSide, 0);
+    const SolidView view = viewOf(bumpySolid(), kSide, kSide, 0);
     Surface surface;
     surface.normals = view.normals;
     surface.materials = patchMaterials();

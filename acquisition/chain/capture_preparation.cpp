@@ -1,0 +1,113 @@
+#include "acquisition/chain/capture_preparation.h"
+
+#include <utility>
+
+#include "acquisition/chain/near_surface.h"
+#include "acquisition/checks/lambertian_misfit.h"
+
+namespace nacre {
+
+namespace {
+
+// A few thousand pixels spread evenly over the whole mask.
+Observations sampleOf(ObservationBlocks& blocks)
+{
+    const Capture& capture = blocks.capture();
+    std::vector<uint32_t> pixels;
+    for (size_t pixel = 0; pixel < capture.mask.size(); ++pixel) {
+        if (capture.mask[pixel]) {
+            pixels.push_back(static_cast<uint32_t>(pixel));
+        }
+    }
+    const PixelSample chosen = samplePixels(pixels, capture.width);
+    Observations sample;
+    while (const Observations* block = blocks.next()) {
+        addToSample(*block, chosen, sample);
+    }
+    return sample;
+}
+
+CaptureSample captureSampleOf(ObservationBlocks& blocks, const std::vector<Light>& lights)
+{
+    const Capture& capture = blocks.capture();
+    CaptureSample sample{sampleOf(blocks), {}, capture.irradianceGiven || capture.diffuseSphere, lights};
+    for (const Photograph& photograph : capture.photographs) {
+        sample.photographs.push_back(photograph.name);
+    }
+    return sample;
+}
+
+// Takes what was left out away, and the corrected irradiances over.
+void keepReconciled(PreparedCapture& prepared)
+{
+    if (prepared.nearField) {
+        prepared.nearField->lights = selectItems(prepared.nearField->lights, prepared.reconciled.agreeing);
+    }
+    std::vector<size_t> given;
+    for (const size_t i : prepared.reconciled.agreeing) {
+        given.push_back(prepared.given[i]);
+    }
+    prepared.given = given;
+    prepared.rig = selectLights(prepared.rig, prepared.reconciled.agreeing);
+    prepared.rig.lights = prepared.reconciled.sample.lights;
+    prepared.blocks.keepLights(prepared.reconciled.agreeing);
+}
+
+} // namespace
+
+// All lights are calibrated before any is chosen, so that irradiances do not depend on the choice.
+PreparedCapture prepareCapture(const Capture& capture, const AcquireOptions& options, StageClock& clock,
+                               const Progress& progress)
+{
+    progress("lights", 0);
+    clock.enter("lights");
+    const Rig rig = calibrateLights(capture, options.calibration);
+    const std::vector<size_t> given = chosenLights(rig.lights, options.lights);
+    PreparedCapture prepared{
+        ObservationBlocks(selectPhotographs(capture, given), options.normals.threads, options.byteBudget),
+        given,
+        selectLights(rig, given),
+        {},
+        {},
+        0,
+        {},
+        {},
+        {},
+        options.normals.threads};
+    requireSpanningLights(prepared.rig.lights, capture.folder);
+    progress("reading", 0);
+    clock.enter("reading");
+    CaptureSample sample = captureSampleOf(prepared.blocks, prepared.rig.lights);
+    progress("choosing", 0);
+    clock.enter("choosing");
+    prepared.nearField = nearFieldOf(capture, given, prepared.rig.lights);
+    Observations seen = sample.seen;
+    sample.seen = asIfDistant(std::move(sample.seen), prepared.localLights(), {}, options.normals.threads);
+    prepared.reconciled = reconcilePhotographs(std::move(sample), options);
+    keepReconciled(prepared);
+    if (prepared.rig.lights.size() != seen.lightCount) {
+        seen = selectLights(seen, prepared.reconciled.agreeing);
+    }
+    checkSample(options, prepared);
+    approachSurface(capture, seen, options, clock, progress, prepared);
+    prepared.lambertianMisfit = lambertianMisfit(prepared.reconciled.sample.seen, prepared.reconciled.sample.lights);
+    return prepared;
+}
+
+NormalEstimate estimateCaptureNormals(const Capture& capture, const AcquireOptions& options, const Progress& progress)
+{
+    StageClock clock;
+    PreparedCapture prepared = prepareCapture(capture, options, clock, progress);
+    const ChosenMethod chosen = chooseMethod(prepared.reconciled.sample, prepared.checked, options.normals);
+    NormalEstimate estimate = startEstimate(prepared, chosen);
+    const Segmentation whole = oneMaterial(capture);
+    BlockWalk walk(prepared.blocks, clock, progress, "normals");
+    while (const Observations* block = walk.next()) {
+        storeNormals(*block, estimateNormals(prepared, chosen, whole, *block), options.keepVerdicts, estimate);
+    }
+    finishEstimate(capture, estimate);
+    estimate.times = clock.finish();
+    return estimate;
+}
+
+} // namespace nacre

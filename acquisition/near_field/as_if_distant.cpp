@@ -1,0 +1,131 @@
+#include "acquisition/near_field/as_if_distant.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <glm/geometric.hpp>
+
+#include "engine/files/parallel_for.h"
+#include "engine/surface/height_from_normals.h"
+
+namespace nacre {
+
+namespace {
+
+constexpr size_t kMovedPerTask = 512;
+constexpr float kGrazing = 0.05f;
+constexpr float kMostBrightened = 5; // by the shading, whatever the normal says
+
+// By what the reference light shades the normal more than the pixel's own; below 0: not known.
+float shadingFactor(const glm::vec3& normal, const glm::vec3& reference, const glm::vec3& own)
+{
+    const float there = glm::dot(normal, reference), here = glm::dot(normal, own);
+    if (here >= kGrazing) {
+        return std::clamp(there / here, 0.0f, kMostBrightened);
+    }
+    return there < kGrazing ? 1.0f : -1.0f;
+}
+
+void moveLights(const LocalLights& lights, uint32_t pixel, const glm::vec3& normal, std::vector<Light>& own,
+                glm::vec3* radiance, uint8_t* saturated)
+{
+    const std::vector<Light>& reference = lights.reference();
+    const std::span<const Light> met = lights.of(pixel, own);
+    for (size_t i = 0; i < met.size(); ++i) {
+        radiance[i] *= reference[i].irradiance / met[i].irradiance;
+        if (normal != glm::vec3(0)) {
+            const float factor = shadingFactor(normal, reference[i].direction, met[i].direction);
+            radiance[i] *= std::max(factor, 0.0f);
+            saturated[i] |= factor < 0;
+        }
+    }
+}
+
+} // namespace
+
+std::vector<glm::vec3> localNormals(const Observations& block, const LocalLights& lights, const NormalMap& normals)
+{
+    std::vector<glm::vec3> local;
+    for (size_t p = 0; p < block.pixels.size() && !normals.normals.empty(); ++p) {
+        local.push_back(lights.toLocal(block.pixels[p], normals.normals[block.pixels[p]]));
+    }
+    return local;
+}
+
+Observations asIfDistant(Observations block, const LocalLights& lights, std::span<const glm::vec3> normals, int threads)
+{
+    if (lights.areDistant()) {
+        return block;
+    }
+    parallelFor(block.pixels.size(), kMovedPerTask, threads, [&](size_t first, size_t last) {
+        std::vector<Light> own;
+        for (size_t p = first; p < last; ++p) {
+            moveLights(lights, block.pixels[p], normals.empty() ? glm::vec3(0) : normals[p], own,
+                       &block.radiance[p * block.lightCount], &block.saturated[p * block.lightCount]);
+        }
+    });
+    return block;
+}
+
+namespace {
+
+bool isAtOutline(const NormalMap& normals, int x, int y)
+{
+    const auto hasNone = [&](int u, int v) {
+        return u < 0 || v < 0 || u >= normals.width || v >= normals.height ||
+               normals.confidence[normals.index(u, v)] <= 0;
+    };
+    return !hasNone(x, y) && (hasNone(x - 1, y) || hasNone(x + 1, y) || hasNone(x, y - 1) || hasNone(x, y + 1));
+}
+
+// What the object's outline has in the mean: the plane that the middle of a closed object stands on.
+float outlineHeight(const NormalMap& normals, const Image& height)
+{
+    double sum = 0, count = 0;
+    for (int y = 0; y < normals.height; ++y) {
+        for (int x = 0; x < normals.width; ++x) {
+            if (isAtOutline(normals, x, y)) {
+                sum += height.values[normals.index(x, y)];
+                ++count;
+            }
+        }
+    }
+    return count > 0 ? static_cast<float>(sum / count) : 0.0f;
+}
+
+// A point is P = C + s r: C the camera at (0, 0, d), r = (u, v, -d) the ray through the plane at (u, v), s = 1 - h / d
+// for the height h. Along the surface n.dP = 0, so that d(log s)/du = -n.x / n.r, and likewise v. q = -d log s has the
+// slopes dq/du = -n.x / (n.z - (n.x u + n.y v) / d): those of an orthographic surface whose normals are
+// (n.x, n.y, n.z - (n.x u + n.y v) / d).
+NormalMap withoutLens(NormalMap normals, const NearField& near)
+{
+    const float distance = static_cast<float>(near.cameraDistance);
+    for (int y = 0; y < normals.height; ++y) {
+        for (int x = 0; x < normals.width; ++x) {
+            glm::vec3& n = normals.normals[normals.index(x, y)];
+            const glm::vec2 place(x + 0.5 - near.axis.x, near.axis.y - y - 0.5);
+            n.z -= (n.x * place.x + n.y * place.y) / distance;
+            n = glm::length(n) > 0 ? glm::normalize(n) : n;
+        }
+    }
+    return normals;
+}
+
+} // namespace
+
+Image heightBefore(const NormalMap& normals, const NearField& near, int threads)
+{
+    const bool hasLens = std::isfinite(near.cameraDistance);
+    const float distance = static_cast<float>(near.cameraDistance);
+    IntegrationOptions options;
+    options.threads = threads;
+    Image height = heightFromNormals(hasLens ? withoutLens(normals, near) : normals, options).height;
+    const float plane = outlineHeight(normals, height);
+    for (size_t pixel = 0; pixel < height.values.size(); ++pixel) {
+        const float q = normals.confidence[pixel] > 0 ? height.values[pixel] - plane : 0;
+        height.values[pixel] = hasLens ? distance * (1 - std::exp(-q / distance)) : q;
+    }
+    return height;
+}
+
+} // namespace nacre

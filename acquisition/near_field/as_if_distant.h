@@ -1,0 +1,30 @@
+#pragma once
+#include "acquisition/capture/observations.h"
+#include "acquisition/near_field/local_lights.h"
+#include "engine/files/image.h"
+#include "engine/surface/normal_map.h"
+
+namespace nacre {
+
+// What is known of a surface while it is estimated; both empty at first.
+struct SurfaceGuess {
+    NormalMap normals; // camera frame
+    Image height;      // pixels above the plane of NearField
+};
+
+// Normals of the block's pixels in their own frames, 0 where there is none; none at all without a map.
+std::vector<glm::vec3> localNormals(const Observations& block, const LocalLights& lights, const NormalMap& normals);
+
+// What the block's pixels would show under the reference lights, seen along their own rays: an estimator for distant
+// lights answers their normals in their local frames. The fall-off is taken out; where a normal n is known, so is what
+// the pixel's own light l does to the shading, by the factor n.lr / n.l against the reference lr. An observation that
+// grazes its own light (n.l below 0.05) and not the reference tells nothing, and is marked as clipped.
+// `normals`: of each pixel in its own frame, 0 where it is not known; empty: none is.
+Observations asIfDistant(Observations block, const LocalLights& lights, std::span<const glm::vec3> normals,
+                         int threads);
+
+// The height of a surface before near's camera from its normals in the camera frame: pixels above the plane of its
+// outline, whose mean is 0; 0 where there is no normal.
+Image heightBefore(const NormalMap& normals, const NearField& near, int threads);
+
+} // namespace nacre

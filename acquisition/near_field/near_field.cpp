@@ -1,0 +1,139 @@
+#include "acquisition/near_field/near_field.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+#include <glm/trigonometric.hpp>
+
+#include "engine/files/error.h"
+
+namespace nacre {
+
+namespace {
+
+// The least rotation that turns a unit vector of positive z to (0,0,1): Rodrigues' formula about v x z, whose sine and
+// cosine are its length and v.z.
+glm::mat3 rotationToFront(const glm::vec3& v)
+{
+    const float x = v.x, y = v.y, c = v.z, k = 1 / (1 + c);
+    // Columns: images of the axes.
+    return {{c + k * y * y, -k * x * y, x}, {-k * x * y, c + k * x * x, y}, {-x, -y, c}};
+}
+
+double cameraDistanceOf(const Capture& capture)
+{
+    return capture.fieldOfView ? capture.width / 2.0 / std::tan(glm::radians(*capture.fieldOfView) / 2)
+                               : std::numeric_limits<double>::infinity();
+}
+
+bool isHarmless(double widths)
+{
+    return glm::degrees(std::atan2(0.5, widths)) < kHarmlessTurn;
+}
+
+void requireOutside(const Capture& capture, size_t photograph, double widths)
+{
+    if (widths < kNearestLight) {
+        throw Error(capture.lightsSource,
+                    fmt::format("puts the light of {} at {:.2f} widths from the object's middle, inside it",
+                                capture.photographs[photograph].name, widths),
+                    fmt::format("places in the unit of the object's width, at least {} widths away", kNearestLight));
+    }
+}
+
+} // namespace
+
+ObjectExtent extentOf(std::span<const uint32_t> pixels, int width)
+{
+    glm::dvec2 least(std::numeric_limits<double>::infinity()), most(-least);
+    for (const uint32_t pixel : pixels) {
+        const glm::dvec2 corner(pixel % static_cast<uint32_t>(width), pixel / static_cast<uint32_t>(width));
+        least = glm::min(least, corner);
+        most = glm::max(most, corner + 1.0);
+    }
+    return {0.5 * (least + most), std::max(most.x - least.x, most.y - least.y)};
+}
+
+ObjectExtent extentOf(const Capture& capture)
+{
+    std::vector<uint32_t> pixels;
+    for (size_t pixel = 0; pixel < capture.mask.size(); ++pixel) {
+        if (capture.mask[pixel]) {
+            pixels.push_back(static_cast<uint32_t>(pixel));
+        }
+    }
+    return extentOf(pixels, capture.width);
+}
+
+std::optional<NearField> nearFieldOf(const Capture& capture, const std::vector<size_t>& photographs,
+                                     const std::vector<Light>& lights)
+{
+    NearField near = cameraOf(capture);
+    const double width = extentOf(capture).width;
+    double nearest = std::numeric_limits<double>::infinity();
+    if (!capture.lightPlaces.empty()) {
+        for (const size_t photograph : photographs) {
+            const glm::vec3& place = capture.lightPlaces[photograph];
+            requireOutside(capture, photograph, glm::length(place));
+            nearest = std::min<double>(nearest, glm::length(place));
+            near.lights.push_back(static_cast<float>(width) * place);
+        }
+    } else if (capture.lightDistance && std::isfinite(*capture.lightDistance)) {
+        requireOutside(capture, photographs.front(), *capture.lightDistance);
+        nearest = *capture.lightDistance;
+        near = withLightsAt(near, lights, nearest * width);
+    }
+    if (isHarmless(nearest)) {
+        near.lights.clear();
+    }
+    return near.lights.empty() && !capture.fieldOfView ? std::nullopt : std::optional(near);
+}
+
+NearField cameraOf(const Capture& capture)
+{
+    return {{}, cameraDistanceOf(capture), extentOf(capture).middle, {capture.width / 2.0, capture.height / 2.0}};
+}
+
+NearField withLightsAt(NearField near, const std::vector<Light>& lights, double distance)
+{
+    near.lights.clear();
+    for (const Light& light : lights) {
+        near.lights.push_back(static_cast<float>(distance) * light.direction);
+    }
+    return near;
+}
+
+// The pixel's ray meets the plane at (u, v, 0) from the axis; the point is on it at the height given.
+LocalFrame frameAt(const NearField& near, uint32_t pixel, int width, float height)
+{
+    const double x = pixel % static_cast<uint32_t>(width) + 0.5, y = pixel / static_cast<uint32_t>(width) + 0.5;
+    LocalFrame frame;
+    if (std::isinf(near.cameraDistance)) {
+        frame.place = glm::vec3(x - near.origin.x, near.origin.y - y, height);
+        return frame;
+    }
+    const glm::dvec2 onPlane(x - near.axis.x, near.axis.y - y);
+    const glm::dvec2 there = onPlane * (1 - height / near.cameraDistance);
+    const glm::vec3 view =
+        glm::normalize(glm::dvec3(-there.x, -there.y, near.cameraDistance - static_cast<double>(height)));
+    frame.place = glm::vec3(there.x + near.axis.x - near.origin.x, there.y + near.origin.y - near.axis.y, height);
+    frame.toLocal = rotationToFront(view);
+    return frame;
+}
+
+Light lightAt(const NearField& near, const LocalFrame& frame, const Light& light, size_t index)
+{
+    if (near.lights.empty()) {
+        return {frame.toLocal * light.direction, light.irradiance};
+    }
+    const glm::vec3 towards = near.lights[index] - frame.place;
+    const float square = glm::dot(towards, towards), reference = glm::dot(near.lights[index], near.lights[index]);
+    return {frame.toLocal * (towards / std::sqrt(square)), light.irradiance * (reference / square)};
+}
+
+} // namespace nacre

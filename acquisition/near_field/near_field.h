@@ -1,0 +1,61 @@
+#pragma once
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include <glm/mat3x3.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+#include "acquisition/capture/capture.h"
+#include "engine/lights/light.h"
+
+namespace nacre {
+
+// Where lights and camera stand: x right, y up, z towards the camera, in pixels of the picture. The origin is the
+// middle of the mask's bounding box, on the plane that heights count from.
+struct NearField {
+    std::vector<glm::vec3> lights;                                   // places, one a light; empty: all are distant
+    double cameraDistance = std::numeric_limits<double>::infinity(); // from the plane; infinite: orthographic
+    glm::dvec2 origin{0};                                            // image coordinates (capture.h, Circle)
+    glm::dvec2 axis{0}; // where the camera's axis meets the plane, image coordinates
+};
+
+// The bounding box of pixels of a picture so wide: the longer side is the object's width.
+struct ObjectExtent {
+    glm::dvec2 middle{0}; // image coordinates
+    double width = 0;     // pixels
+};
+ObjectExtent extentOf(std::span<const uint32_t> pixels, int width);
+ObjectExtent extentOf(const Capture& capture);
+
+// What the capture itself says of `lights`, which are those of `photographs`: their places, or one distance of all from
+// the object's middle; its field of view. None where the camera is orthographic and lights are distant, or so far that
+// their directions turn by less than kHarmlessTurn over the object. Throws Error (data) where a light stands inside the
+// object, nearer than kNearestLight widths to its middle.
+std::optional<NearField> nearFieldOf(const Capture& capture, const std::vector<size_t>& photographs,
+                                     const std::vector<Light>& lights);
+inline constexpr double kNearestLight = 0.6;
+inline constexpr double kHarmlessTurn = 2; // degrees from the object's middle to its edge
+
+// The camera alone.
+NearField cameraOf(const Capture& capture);
+// Lights at one distance from the object's middle along their directions.
+NearField withLightsAt(NearField near, const std::vector<Light>& lights, double distance);
+
+// A point of the surface as its pixel sees it: the pixel's own frame has z towards the camera.
+struct LocalFrame {
+    glm::vec3 place{0};
+    glm::mat3 toLocal{1}; // a rotation from the camera frame
+};
+
+// `height` above the plane, in pixels.
+LocalFrame frameAt(const NearField& near, uint32_t pixel, int width, float height);
+
+// A light as a point meets it, in the point's frame. `light` is as the origin meets it: irradiance falls off with the
+// square of the distance.
+Light lightAt(const NearField& near, const LocalFrame& frame, const Light& light, size_t index);
+
+} // namespace nacre
