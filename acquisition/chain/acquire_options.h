@@ -24,6 +24,9 @@ struct AcquireOptions {
     size_t byteBudget = ObservationReader::kDefaultByteBudget;
     // Photographs that disagree with the rest, and irradiances that nobody gave.
     bool correctIntensities = true;
+    // A distance of the lights that nobody gave. Normals alone gain by it: surfaces are rendered under distant lights,
+    // which normals that are bent like the photographs fit better.
+    bool estimateDistance = false;
     bool keepVerdicts = false; // of every observation, for pictures of them
 
     void setThreads(int threads)

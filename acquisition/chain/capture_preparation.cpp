@@ -97,7 +97,9 @@ PreparedCapture prepareCapture(const Capture& capture, const AcquireOptions& opt
 NormalEstimate estimateCaptureNormals(const Capture& capture, const AcquireOptions& options, const Progress& progress)
 {
     StageClock clock;
-    PreparedCapture prepared = prepareCapture(capture, options, clock, progress);
+    AcquireOptions seeking = options;
+    seeking.estimateDistance = true;
+    PreparedCapture prepared = prepareCapture(capture, seeking, clock, progress);
     const ChosenMethod chosen = chooseMethod(prepared.reconciled.sample, prepared.checked, options.normals);
     NormalEstimate estimate = startEstimate(prepared, chosen);
     const Segmentation whole = oneMaterial(capture);

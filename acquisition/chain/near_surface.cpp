@@ -95,7 +95,7 @@ void approachSurface(const Capture& capture, const Observations& seen, const Acq
         prepared.placed = {{FindingCode::lightsPlaced, placeText(*prepared.nearField, capture)}};
     }
     const std::optional<CaptureDefect> defect = prepared.checked.defect;
-    if (capture.lightDistance || !capture.lightPlaces.empty() || !defect ||
+    if (!options.estimateDistance || capture.lightDistance || !capture.lightPlaces.empty() || !defect ||
         defect->kind != CaptureDefect::Kind::nearLights) {
         return;
     }

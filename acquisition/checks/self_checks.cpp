@@ -68,11 +68,10 @@ Finding findingOf(const CaptureDefect& defect, double scatter)
     case CaptureDefect::Kind::nearLights:
         break;
     }
-    return {
-        FindingCode::lightsNear,
-        fmt::format("the lights are not distant (at {:.2g} widths of the object, {}); move them away, or photograph "
-                    "less of the object",
-                    defect.size, gain)};
+    return {FindingCode::lightsNear,
+            fmt::format("the lights are not distant (at {:.2g} widths of the object, {}); give their distance "
+                        "(--light-distance), move them away, or photograph less of the object",
+                        defect.size, gain)};
 }
 
 // Shares of the observations that face their light.

@@ -115,8 +115,8 @@ void CalibrationArguments::addTo(CLI::App& command)
         ->group(kLights);
     command
         .add_option("--light-distance", lightDistance,
-                    "Distance of the lights from the object's middle in widths of the object; far: distant; auto: near "
-                    "where the photographs tell (default: that of capture.json, else auto)")
+                    "Distance of the lights from the object's middle in widths of the object; far: distant; auto: "
+                    "`normals` finds it where the photographs tell (default: that of capture.json, else auto)")
         ->option_text("WIDTHS|far|auto")
         ->group(kLights);
     command
