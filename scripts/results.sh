@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Measures the rows behind the tables of docs/results.md and prints them as CSV: scripts/results.sh NACRE DATA > docs/results.csv
-# NACRE: the program. DATA: a folder with DiLiGenT's ballPNG and bearPNG in diligent/, and the University of Washington's set in psm/.
+# NACRE: the program. DATA: a folder with DiLiGenT's ballPNG, bearPNG and readingPNG in diligent/, the University of
+# Washington's set in psm/, and PSBox in psbox/.
 # Frames, whose times depend on the machine, are measured by `nacre bench`.
 set -euo pipefail
 nacre=$1 data=$2
@@ -33,7 +34,7 @@ relighting() { # capture's name, photographs given, evaluate's arguments
 }
 
 echo "table,capture,lights,method,value,unit"
-for object in ball bear; do
+for object in ball bear reading; do
     for given in all 36 12; do
         normals $object $given "$data/diligent/${object}PNG"
     done
@@ -47,3 +48,10 @@ done
 for object in cat horse buddha; do
     relighting $object 11 "$data/psm/$object" "${spheres[@]}" --hold-out each
 done
+
+# PSBox has no capture's layout of its own: twelve photographs and their lights.
+psbox=$(cd "$data/psbox/data" && pwd)
+mkdir "$work/psbox"
+printf '{"format": "nacre capture", "version": 1, "transfer": "linear", "lights": "%s/light_directions.txt", "photographs": [%s]}\n' \
+    "$psbox" "$(printf '"%s"\n' "$psbox"/Objects/Image_*.png | paste -sd,)" >"$work/psbox/capture.json"
+relighting psbox 11 "$work/psbox" --hold-out each
