@@ -8,7 +8,7 @@ namespace nacre {
 namespace {
 
 // In the order of FindingCode.
-constexpr std::array<std::string_view, 23> kNames = {"transfer-curve-left",
+constexpr std::array<std::string_view, 24> kNames = {"transfer-curve-left",
                                                      "transfer-curve-taken",
                                                      "lights-near",
                                                      "lights-ill-placed",
@@ -30,8 +30,9 @@ constexpr std::array<std::string_view, 23> kNames = {"transfer-curve-left",
                                                      "intensities-estimated",
                                                      "intensities-corrected",
                                                      "method-chosen",
-                                                     "reflectance-chosen"};
-static_assert(kNames.size() == static_cast<size_t>(FindingCode::reflectanceChosen) + 1);
+                                                     "reflectance-chosen",
+                                                     "self-light"};
+static_assert(kNames.size() == static_cast<size_t>(FindingCode::selfLight) + 1);
 
 } // namespace
 

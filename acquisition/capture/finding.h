@@ -32,6 +32,7 @@ enum class FindingCode {
     intensitiesCorrected,
     methodChosen,
     reflectanceChosen,
+    selfLight,
 };
 
 struct Finding {

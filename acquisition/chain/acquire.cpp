@@ -7,6 +7,7 @@
 #include "acquisition/chain/material_albedo.h"
 #include "acquisition/chain/material_models.h"
 #include "acquisition/chain/material_samples.h"
+#include "acquisition/chain/self_lit_choice.h"
 #include "acquisition/residual/residual_estimate.h"
 #include "engine/files/error.h"
 
@@ -125,17 +126,18 @@ NormalsAndSamples estimateAndSample(PreparedCapture& prepared, const Capture& ca
 {
     progress("choosing", 0);
     clock.enter("choosing");
-    const ChosenMethod chosen =
-        chooseMethod(prepared.reconciled.sample, prepared.checked, segmentation, options.normals);
+    const ChosenMethod chosen = chooseMethod(prepared, segmentation, options);
     const LocalLights lights = prepared.localLights();
     NormalsAndSamples result{startEstimate(prepared, chosen),
                              startSamples(capture, lights, segmentation, options.bake)};
+    Observations storage;
     BlockWalk walk(prepared.blocks, clock, progress, "normals");
-    while (const Observations* block = walk.next()) {
-        const NormalBlock normals = estimateNormals(prepared, chosen, segmentation, *block);
-        storeNormals(*block, normals, options.keepVerdicts, result.estimate);
+    while (const Observations* seen = walk.next()) {
+        const Observations& block = directLight(prepared, chosen, *seen, options.normals.threads, storage);
+        const NormalBlock normals = estimateNormals(prepared, chosen, segmentation, block);
+        storeNormals(block, normals, options.keepVerdicts, result.estimate);
         clock.enter("samples");
-        gatherSamples(*block, normals, lights, segmentation, options, result.gathered);
+        gatherSamples(block, normals, lights, segmentation, options, result.gathered);
     }
     finishEstimate(capture, result.estimate);
     return result;

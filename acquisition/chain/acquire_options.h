@@ -27,6 +27,8 @@ struct AcquireOptions {
     // A distance of the lights that nobody gave. Normals alone gain by it: surfaces are rendered under distant lights,
     // which normals that are bent like the photographs fit better.
     bool estimateDistance = false;
+    // Light that the object throws on itself, where auto and exemplar find any; the other methods are as published.
+    bool removeSelfLight = true;
     bool keepVerdicts = false; // of every observation, for pictures of them
 
     void setThreads(int threads)

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "acquisition/chain/near_surface.h"
+#include "acquisition/chain/self_lit_choice.h"
 #include "acquisition/checks/lambertian_misfit.h"
 
 namespace nacre {
@@ -100,12 +101,14 @@ NormalEstimate estimateCaptureNormals(const Capture& capture, const AcquireOptio
     AcquireOptions seeking = options;
     seeking.estimateDistance = true;
     PreparedCapture prepared = prepareCapture(capture, seeking, clock, progress);
-    const ChosenMethod chosen = chooseMethod(prepared.reconciled.sample, prepared.checked, options.normals);
-    NormalEstimate estimate = startEstimate(prepared, chosen);
     const Segmentation whole = oneMaterial(capture);
+    const ChosenMethod chosen = chooseMethod(prepared, whole, seeking);
+    NormalEstimate estimate = startEstimate(prepared, chosen);
+    Observations storage;
     BlockWalk walk(prepared.blocks, clock, progress, "normals");
-    while (const Observations* block = walk.next()) {
-        storeNormals(*block, estimateNormals(prepared, chosen, whole, *block), options.keepVerdicts, estimate);
+    while (const Observations* seen = walk.next()) {
+        const Observations& block = directLight(prepared, chosen, *seen, options.normals.threads, storage);
+        storeNormals(block, estimateNormals(prepared, chosen, whole, block), options.keepVerdicts, estimate);
     }
     finishEstimate(capture, estimate);
     estimate.times = clock.finish();

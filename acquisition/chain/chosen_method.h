@@ -1,9 +1,11 @@
 #pragma once
+#include <optional>
 #include <vector>
 
 #include "acquisition/chain/reconciled_photographs.h"
 #include "acquisition/checks/self_checks.h"
 #include "acquisition/segmentation/segmentation.h"
+#include "acquisition/self_light/self_light.h"
 
 namespace nacre {
 
@@ -12,7 +14,8 @@ struct ChosenMethod {
     NormalMethod method = NormalMethod::consensus; // of the material with most pixels
     std::vector<NormalEstimator> estimators;       // one a material, or one for all
     std::vector<Finding> findings;
-    double heldOutError = 0; // NormalReport's, of an object of one material
+    double heldOutError = 0;       // NormalReport's, of an object of one material
+    std::optional<SelfLight> self; // what the object throws on itself; to be taken out of every block first
 };
 
 // For an object of one material. Methods that look at the whole object (auto, exemplar) do so on the sample.

@@ -171,6 +171,12 @@ void CaptureArguments::addTo(CLI::App& command)
         ->option_text("auto|given [" + intensities + "]")
         ->group(kLights);
     command
+        .add_option("--self-light", selfLight,
+                    "Light that the object throws on itself: auto takes it out for the methods auto and exemplar where "
+                    "unlit sides show it, off does not")
+        ->option_text("auto|off [" + selfLight + "]")
+        ->group(kNormals);
+    command
         .add_option("--thresholds", thresholds,
                     "Range of radiance over irradiance that `threshold` keeps (default: shares of each pixel's own)")
         ->delimiter(',')
@@ -238,6 +244,10 @@ AcquireOptions CaptureArguments::stageOptions() const
         throw Error("", fmt::format("--intensities {} is no choice", intensities), "auto or given", Error::kUsage);
     }
     options.correctIntensities = intensities == "auto";
+    if (selfLight != "auto" && selfLight != "off") {
+        throw Error("", fmt::format("--self-light {} is no choice", selfLight), "auto or off", Error::kUsage);
+    }
+    options.removeSelfLight = selfLight == "auto";
     options.lights = lightChoiceOf(lightsGiven);
     if (lightsGiven && !compareRig.empty()) {
         throw Error("", "--compare-rig is not possible with --lights-given", "one of them: a rig has every light",

@@ -31,6 +31,7 @@ struct CalibrationArguments {
 struct CaptureArguments : CalibrationArguments {
     std::string normals = nameOf(NormalOptions{}.method);
     std::string intensities = "auto";
+    std::string selfLight = "auto";
     std::optional<int> lightsGiven; // empty: all
     size_t triples = NormalOptions{}.triples;
     uint64_t seed = NormalOptions{}.seed;
