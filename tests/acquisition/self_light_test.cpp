@@ -277,7 +277,7 @@ TEST(SelfLight, TornSurfacesStayWithinBounds)
         const uint32_t x = bowl.seen.pixels[p] % kSide;
         if (x % 20 < 3 || p % 11 == 0) {
             normals[p] = PixelNormal{};
-        } else if (p % 5 == 0) {
+        } else if (p % 40 == 0) {
             normals[p].normal = glm::normalize(glm::vec3(uniform01(1, p, 0) - 0.5f, uniform01(1, p, 1) - 0.5f, 0.02f));
         }
     }

@@ -73,6 +73,7 @@ TEST_F(Destinations, IntensitiesGivenAreTakenAsTheyAre)
     EXPECT_EQ(given.exitCode, 0) << given.err;
     EXPECT_EQ(given.out.find("corrected"), std::string::npos) << given.out;
     EXPECT_EQ(normals({"--intensities", "some"}).exitCode, 2);
+    EXPECT_EQ(normals({"--self-light", "some"}).exitCode, 2);
     fs::remove(path("n.exr"));
 }
 
