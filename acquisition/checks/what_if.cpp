@@ -74,7 +74,8 @@ std::optional<CaptureDefect> findDefect(const Observations& seen, const std::vec
     const NormalBlock fit = consensus(intensities);
     const MatteChoice matte = matteObservations(intensities, fit, lights);
     const ObjectExtent extent = seen.width > 0 ? extentOf(seen.pixels, seen.width) : ObjectExtent();
-    const NearField camera{.origin = extent.middle, .axis = extent.middle};
+    NearField camera;
+    camera.origin = camera.axis = extent.middle;
     std::vector<CaptureDefect> trials;
     for (const double exponent : kExponents) {
         trials.push_back({exponent > 1 ? CaptureDefect::Kind::encoded : CaptureDefect::Kind::decoded, exponent, 0});

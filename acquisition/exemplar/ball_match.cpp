@@ -27,7 +27,7 @@ constexpr int kPolishSteps = 3;
 constexpr float kDarkRoot = 0.2f;
 constexpr float kDarkShare = 0.25f;
 
-Lanes costOf(const Lanes& observed, const Lanes& residual, float truncation)
+NACRE_ON_LANES Lanes costOf(const Lanes& observed, const Lanes& residual, float truncation)
 {
     const Lanes most = observed < kDarkRoot ? allLanes(kDarkShare * truncation) : allLanes(truncation);
     return residual < most ? residual : most;
@@ -55,7 +55,7 @@ void matchRoots(const float* observed, const float* column, size_t stride, float
     cost = sumOf(costs);
 }
 
-Lanes glossyPrediction(const float* diffuse, const float* gloss, float scale, float inverseBright)
+NACRE_ON_LANES Lanes glossyPrediction(const float* diffuse, const float* gloss, float scale, float inverseBright)
 {
     const Lanes matte = scale * lanesAt(diffuse), all = matte + inverseBright * lanesAt(gloss),
                 least = kLeastGlossShare * matte;
@@ -99,20 +99,20 @@ struct BallCell {
 };
 
 // A column's values at the cell's place.
-Lanes mixed(const BallCell& cell, const std::array<const float*, 4>& columns, size_t i)
+NACRE_ON_LANES Lanes mixed(const BallCell& cell, const std::array<const float*, 4>& columns, size_t i)
 {
     return (1 - cell.v) * ((1 - cell.u) * lanesAt(columns[0] + i) + cell.u * lanesAt(columns[1] + i)) +
            cell.v * ((1 - cell.u) * lanesAt(columns[2] + i) + cell.u * lanesAt(columns[3] + i));
 }
 
 // Their derivatives by x and y.
-Lanes alongX(const BallCell& cell, const std::array<const float*, 4>& columns, size_t i)
+NACRE_ON_LANES Lanes alongX(const BallCell& cell, const std::array<const float*, 4>& columns, size_t i)
 {
     return (1 - cell.v) * (lanesAt(columns[1] + i) - lanesAt(columns[0] + i)) +
            cell.v * (lanesAt(columns[3] + i) - lanesAt(columns[2] + i));
 }
 
-Lanes alongY(const BallCell& cell, const std::array<const float*, 4>& columns, size_t i)
+NACRE_ON_LANES Lanes alongY(const BallCell& cell, const std::array<const float*, 4>& columns, size_t i)
 {
     return (1 - cell.u) * (lanesAt(columns[2] + i) - lanesAt(columns[0] + i)) +
            cell.u * (lanesAt(columns[3] + i) - lanesAt(columns[1] + i));
@@ -142,8 +142,7 @@ struct RootLanes {
     Lanes root, byX, byY, byScale;
 };
 
-[[gnu::always_inline]] inline RootLanes predictRoots(const BallCell& cell, bool additive, size_t i, float scale,
-                                                     float inverseBright)
+NACRE_ON_LANES RootLanes predictRoots(const BallCell& cell, bool additive, size_t i, float scale, float inverseBright)
 {
     const Lanes diffuse = mixed(cell, cell.diffuse, i);
     Lanes value = scale * diffuse, byX = scale * alongX(cell, cell.diffuse, i),

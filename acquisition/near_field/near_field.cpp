@@ -39,10 +39,11 @@ bool isHarmless(double widths)
 void requireOutside(const Capture& capture, size_t photograph, double widths)
 {
     if (widths < kNearestLight) {
-        throw Error(capture.lightsSource,
-                    fmt::format("puts the light of {} at {:.2f} widths from the object's middle, inside it",
-                                capture.photographs[photograph].name, widths),
-                    fmt::format("places in the unit of the object's width, at least {} widths away", kNearestLight));
+        throw Error(
+            capture.lightsSource.empty() ? capture.folder : std::filesystem::path(capture.lightsSource),
+            fmt::format("puts the light of {} at {:.2f} widths from the object's middle, inside it",
+                        capture.photographs[photograph].name, widths),
+            fmt::format("places or a distance in the unit of the object's width, {} widths or more", kNearestLight));
     }
 }
 

@@ -8,6 +8,7 @@
 
 // Functions on lanes are inlined where they are called, so that no caller passes them in registers of another width.
 #pragma GCC diagnostic ignored "-Wpsabi"
+#define NACRE_ON_LANES [[gnu::always_inline]] inline
 
 namespace nacre {
 
@@ -17,22 +18,22 @@ constexpr int kLanes = 8;
 typedef float Lanes __attribute__((vector_size(32), aligned(4), may_alias));
 typedef int LaneCounts __attribute__((vector_size(32)));
 
-inline const Lanes& lanesAt(const float* first)
+NACRE_ON_LANES const Lanes& lanesAt(const float* first)
 {
     return *reinterpret_cast<const Lanes*>(first);
 }
 
-inline Lanes allLanes(float value)
+NACRE_ON_LANES Lanes allLanes(float value)
 {
     return Lanes{value, value, value, value, value, value, value, value};
 }
 
-inline Lanes absolute(const Lanes& lanes)
+NACRE_ON_LANES Lanes absolute(const Lanes& lanes)
 {
     return lanes < 0 ? -lanes : lanes;
 }
 
-inline Lanes rootOf(const Lanes& lanes)
+NACRE_ON_LANES Lanes rootOf(const Lanes& lanes)
 {
     Lanes result;
     const auto* from = reinterpret_cast<const float*>(&lanes);
@@ -49,20 +50,20 @@ inline Lanes rootOf(const Lanes& lanes)
 }
 
 // Pairwise, so that the result does not depend on how it is compiled.
-inline float sumOf(const Lanes& lanes)
+NACRE_ON_LANES float sumOf(const Lanes& lanes)
 {
     const auto* l = reinterpret_cast<const float*>(&lanes);
     return ((l[0] + l[1]) + (l[2] + l[3])) + ((l[4] + l[5]) + (l[6] + l[7]));
 }
 
-inline float leastOf(const Lanes& lanes)
+NACRE_ON_LANES float leastOf(const Lanes& lanes)
 {
     const auto* l = reinterpret_cast<const float*>(&lanes);
     return std::min(std::min(std::min(l[0], l[1]), std::min(l[2], l[3])),
                     std::min(std::min(l[4], l[5]), std::min(l[6], l[7])));
 }
 
-inline int sumOf(const LaneCounts& counts)
+NACRE_ON_LANES int sumOf(const LaneCounts& counts)
 {
     const auto* c = reinterpret_cast<const int*>(&counts);
     return ((c[0] + c[1]) + (c[2] + c[3])) + ((c[4] + c[5]) + (c[6] + c[7]));
