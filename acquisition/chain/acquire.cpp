@@ -130,14 +130,15 @@ NormalsAndSamples estimateAndSample(PreparedCapture& prepared, const Capture& ca
     const LocalLights lights = prepared.localLights();
     NormalsAndSamples result{startEstimate(prepared, chosen),
                              startSamples(capture, lights, segmentation, options.bake)};
-    Observations storage;
     BlockWalk walk(prepared.blocks, clock, progress, "normals");
     while (const Observations* seen = walk.next()) {
-        const Observations& block = directLight(prepared, chosen, *seen, options.normals.threads, storage);
-        const NormalBlock normals = estimateNormals(prepared, chosen, segmentation, block);
-        storeNormals(block, normals, options.keepVerdicts, result.estimate);
-        clock.enter("samples");
-        gatherSamples(block, normals, lights, segmentation, options, result.gathered);
+        forEachDirect(prepared, chosen, *seen, options.normals.threads, [&](const Observations& block) {
+            clock.enter("normals");
+            const NormalBlock normals = estimateNormals(prepared, chosen, segmentation, block);
+            storeNormals(block, normals, options.keepVerdicts, result.estimate);
+            clock.enter("samples");
+            gatherSamples(block, normals, lights, segmentation, options, result.gathered);
+        });
     }
     finishEstimate(capture, result.estimate);
     return result;

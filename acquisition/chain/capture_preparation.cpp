@@ -104,11 +104,11 @@ NormalEstimate estimateCaptureNormals(const Capture& capture, const AcquireOptio
     const Segmentation whole = oneMaterial(capture);
     const ChosenMethod chosen = chooseMethod(prepared, whole, seeking);
     NormalEstimate estimate = startEstimate(prepared, chosen);
-    Observations storage;
     BlockWalk walk(prepared.blocks, clock, progress, "normals");
     while (const Observations* seen = walk.next()) {
-        const Observations& block = directLight(prepared, chosen, *seen, options.normals.threads, storage);
-        storeNormals(block, estimateNormals(prepared, chosen, whole, block), options.keepVerdicts, estimate);
+        forEachDirect(prepared, chosen, *seen, options.normals.threads, [&](const Observations& block) {
+            storeNormals(block, estimateNormals(prepared, chosen, whole, block), options.keepVerdicts, estimate);
+        });
     }
     finishEstimate(capture, estimate);
     estimate.times = clock.finish();

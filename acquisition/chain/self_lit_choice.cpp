@@ -1,5 +1,6 @@
 #include "acquisition/chain/self_lit_choice.h"
 
+#include <algorithm>
 #include <utility>
 
 #include <fmt/format.h>
@@ -7,6 +8,23 @@
 namespace nacre {
 
 namespace {
+
+constexpr size_t kPixelsPerPart = 65536;
+
+Observations rangeOf(const Observations& block, size_t first, size_t last)
+{
+    const auto slice = [](const auto& values, size_t from, size_t to) {
+        return std::vector(values.begin() + static_cast<std::ptrdiff_t>(from),
+                           values.begin() + static_cast<std::ptrdiff_t>(to));
+    };
+    const size_t n = block.lightCount;
+    return {n,
+            slice(block.pixels, first, last),
+            slice(block.radiance, first * n, last * n),
+            slice(block.saturated, first * n, last * n),
+            block.width,
+            block.spacing};
+}
 
 Finding describeSelfLight(const SelfLight& self)
 {
@@ -42,14 +60,17 @@ ChosenMethod chooseMethod(const PreparedCapture& prepared, const Segmentation& m
     return chosen;
 }
 
-const Observations& directLight(const PreparedCapture& prepared, const ChosenMethod& chosen, const Observations& block,
-                                int threads, Observations& direct)
+void forEachDirect(const PreparedCapture& prepared, const ChosenMethod& chosen, const Observations& block, int threads,
+                   const std::function<void(const Observations& direct)>& visit)
 {
     if (!chosen.self) {
-        return block;
+        visit(block);
+        return;
     }
-    direct = withoutSelfLight(*chosen.self, block, prepared.rig.lights, threads);
-    return direct;
+    for (size_t first = 0; first < block.pixels.size(); first += kPixelsPerPart) {
+        const size_t last = std::min(block.pixels.size(), first + kPixelsPerPart);
+        visit(withoutSelfLight(*chosen.self, rangeOf(block, first, last), prepared.rig.lights, threads));
+    }
 }
 
 } // namespace nacre

@@ -1,4 +1,6 @@
 #pragma once
+#include <functional>
+
 #include "acquisition/chain/normal_estimation.h"
 
 namespace nacre {
@@ -8,8 +10,9 @@ namespace nacre {
 ChosenMethod chooseMethod(const PreparedCapture& prepared, const Segmentation& materials,
                           const AcquireOptions& options);
 
-// The block as the lights alone light it: itself, or what is then in `direct`.
-const Observations& directLight(const PreparedCapture& prepared, const ChosenMethod& chosen, const Observations& block,
-                                int threads, Observations& direct);
+// Visits the block as the lights alone light it: whole, or in parts of bounded size in the pixels' order where light
+// has to be taken out, so that no second copy of a large block is held.
+void forEachDirect(const PreparedCapture& prepared, const ChosenMethod& chosen, const Observations& block, int threads,
+                   const std::function<void(const Observations& direct)>& visit);
 
 } // namespace nacre

@@ -181,19 +181,17 @@ std::optional<SelfLight> findSelfLight(const Observations& sample, const std::ve
     return self;
 }
 
-Observations withoutSelfLight(const SelfLight& self, const Observations& block, const std::vector<Light>& lights,
-                              int threads)
+Observations withoutSelfLight(const SelfLight& self, Observations block, const std::vector<Light>& lights, int threads)
 {
-    Observations direct = block;
     parallelFor(block.pixels.size(), kPixelsAtOnce, threads, [&](size_t first, size_t last) {
         std::vector<glm::vec3> arriving;
         for (size_t p = first; p < last; ++p) {
             const Spot spot = spotOf(self, block.pixels[p], block.width);
             arrivingAt(self, spot, arriving);
-            takeSelfLight(self, lights, p, spot, arriving, direct);
+            takeSelfLight(self, lights, p, spot, arriving, block);
         }
     });
-    return direct;
+    return block;
 }
 
 } // namespace nacre

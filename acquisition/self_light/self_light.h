@@ -40,7 +40,6 @@ std::optional<SelfLight> findSelfLight(const Observations& sample, const std::ve
 constexpr float kMostSelfLight = 0.95f;
 
 // What the pixels would show if the lights alone lit them.
-Observations withoutSelfLight(const SelfLight& self, const Observations& block, const std::vector<Light>& lights,
-                              int threads);
+Observations withoutSelfLight(const SelfLight& self, Observations block, const std::vector<Light>& lights, int threads);
 
 } // namespace nacre
