@@ -151,7 +151,8 @@ float peakOf(const Image& radiance, std::span<const uint8_t> mask)
 
 float exposureOfPeak(double peak)
 {
-    return static_cast<float>(std::log2(0.9 / peak));
+    constexpr double kSteps = 1024; // in a stop
+    return static_cast<float>(std::round(kSteps * std::log2(0.9 / peak)) / kSteps);
 }
 
 double radiancePsnr(const Image& a, const Image& b, std::span<const uint8_t> mask, double peak)

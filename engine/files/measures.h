@@ -19,7 +19,8 @@ float peakOf(std::vector<float>& values);
 float peakOf(std::span<const glm::vec3> radiance, size_t mostValues = ~size_t{0});
 float peakOf(const Image& radiance, std::span<const uint8_t> mask);
 
-// Stops that put a peak at 0.9 of display white.
+// Stops that put a peak at 0.9 of display white, to 1/1024 of a stop: quarters added and taken away leave the same
+// float.
 float exposureOfPeak(double peak);
 
 // Grey of linear Rec. 601 weights, as DiLiGenT's published figures use it: what normals, verdicts and grey PSNR see.
