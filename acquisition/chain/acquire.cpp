@@ -7,6 +7,7 @@
 #include "acquisition/chain/material_albedo.h"
 #include "acquisition/chain/material_models.h"
 #include "acquisition/chain/material_samples.h"
+#include "acquisition/chain/remeasured_sample.h"
 #include "acquisition/chain/self_lit_choice.h"
 #include "acquisition/residual/residual_estimate.h"
 #include "engine/files/error.h"
@@ -129,7 +130,7 @@ NormalsAndSamples estimateAndSample(PreparedCapture& prepared, const Capture& ca
     const ChosenMethod chosen = chooseMethod(prepared, segmentation, options);
     const LocalLights lights = prepared.localLights();
     NormalsAndSamples result{startEstimate(prepared, chosen),
-                             startSamples(capture, lights, segmentation, options.bake)};
+                             startSamples(capture, lights, segmentation, options.bake), chosen};
     BlockWalk walk(prepared.blocks, clock, progress, "normals");
     while (const Observations* seen = walk.next()) {
         forEachDirect(prepared, chosen, *seen, options.normals.threads, [&](const Observations& block) {
@@ -151,7 +152,8 @@ Acquisition acquire(const Capture& capture, const AcquireOptions& options, const
     std::optional<Segmentation> known = knownSegmentation(capture, options.segment);
     PreparedCapture prepared = prepareCapture(capture, options, clock, progress);
     result.segmentation = known ? std::move(*known) : findSegmentation(prepared, capture, options, clock, progress);
-    auto [estimate, gathered] = estimateAndSample(prepared, capture, result.segmentation, options, clock, progress);
+    auto [estimate, gathered, chosen] =
+        estimateAndSample(prepared, capture, result.segmentation, options, clock, progress);
     progress("baking", 0);
     clock.enter("baking");
     auto [baked, interpolations] = bakeAll(gathered.samples, result.segmentation, options);
@@ -167,7 +169,11 @@ Acquisition acquire(const Capture& capture, const AcquireOptions& options, const
     if (options.residual.choice != ResidualChoice::none) {
         progress("residual", 0);
         clock.enter("residual");
-        EstimatedResidual residual = estimateResidual(result.surface, options.residual, prepared.blocks);
+        const Measurement measurement{prepared, chosen, result.segmentation, options, interpolations};
+        const auto remeasure = [&](const Observations& sample, std::span<const size_t> without) {
+            return remeasured(measurement, sample, without);
+        };
+        EstimatedResidual residual = estimateResidual(result.surface, options.residual, prepared.blocks, remeasure);
         result.surface.residual = std::move(residual.layer);
         result.residual = std::move(residual.report);
     }

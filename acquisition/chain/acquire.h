@@ -29,6 +29,7 @@ struct Acquisition {
 struct NormalsAndSamples {
     NormalEstimate estimate;
     MaterialSamples gathered;
+    ChosenMethod chosen; // by which normals were estimated
 };
 NormalsAndSamples estimateAndSample(PreparedCapture& prepared, const Capture& capture, const Segmentation& segmentation,
                                     const AcquireOptions& options, StageClock& clock, const Progress& progress);

@@ -14,7 +14,15 @@ LocalLights::LocalLights(std::vector<Light> lights, NearField near, Image height
 
 LocalFrame LocalLights::frameOf(uint32_t pixel) const
 {
-    return frameAt(*near_, pixel, width_, height_.values.empty() ? 0.0f : height_.values[pixel]);
+    const uint32_t place = pixels_.empty() ? pixel : pixels_[pixel];
+    return frameAt(*near_, place, width_, height_.values.empty() ? 0.0f : height_.values[place]);
+}
+
+LocalLights LocalLights::ofPixels(std::vector<uint32_t> pixels) const
+{
+    LocalLights some = *this;
+    some.pixels_ = std::move(pixels);
+    return some;
 }
 
 std::span<const Light> LocalLights::of(uint32_t pixel, std::vector<Light>& own) const

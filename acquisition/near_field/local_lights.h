@@ -22,6 +22,8 @@ public:
     const std::vector<Light>& reference() const { return lights_; }
     // `own` holds them where the pixel has its own.
     std::span<const Light> of(uint32_t pixel, std::vector<Light>& own) const;
+    // Of these pixels alone, which are numbered from 0 from then on.
+    LocalLights ofPixels(std::vector<uint32_t> pixels) const;
     // Those at the object's middle and at the corners of its outline: the widest that it meets.
     std::vector<Light> over(const Capture& capture) const;
     glm::vec3 toLocal(uint32_t pixel, const glm::vec3& inCameraFrame) const;
@@ -34,6 +36,7 @@ private:
     std::optional<NearField> near_;
     Image height_;
     int width_ = 0;
+    std::vector<uint32_t> pixels_; // by their number; empty: numbers are pixels
 };
 
 } // namespace nacre

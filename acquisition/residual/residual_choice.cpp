@@ -14,20 +14,7 @@ namespace nacre {
 
 namespace {
 
-constexpr double kMostLeverage = 0.9; // a light that alone decides normals says little, but not nothing
 constexpr double kLeastError = 1e-12;
-
-// Share of each light's observation in its own Lambertian fit: the diagonal of L (L'L)^-1 L'.
-Eigen::ArrayXf leverages(std::span<const Light> lights)
-{
-    Eigen::MatrixXd matrix(lights.size(), 3);
-    for (size_t i = 0; i < lights.size(); ++i) {
-        const glm::vec3& l = lights[i].direction;
-        matrix.row(static_cast<Eigen::Index>(i)) << l.x, l.y, l.z;
-    }
-    const Eigen::MatrixXd hat = matrix * (matrix.transpose() * matrix).ldlt().solve(matrix.transpose());
-    return hat.diagonal().array().max(0.0).min(kMostLeverage).cast<float>();
-}
 
 } // namespace
 
@@ -40,8 +27,6 @@ ResidualJudge::ResidualJudge(const ResidualRows& rows, std::span<const Light> li
         }
     }
     truth_ = shown(rows.observed);
-    const Eigen::ArrayXf kept = 1 - leverages(lights);
-    unseen_ = rows.observed - (rows.observed - rows.predicted) * kept.inverse().matrix().asDiagonal();
 }
 
 Eigen::ArrayXXf ResidualJudge::shown(const Eigen::MatrixXf& rows) const
@@ -77,6 +62,7 @@ constexpr float kTrusts[] = {0, 0.25f, 0.5f, 0.75f, 1};
 constexpr double kUsualPenalty = 1e-2;
 constexpr float kUsualTrust = 0.5f;
 constexpr double kLevelQuantile = 2.807; // of the normal distribution at 5 % over the 20 settings compared
+constexpr double kOneStandardError = 1;
 
 struct ResidualCandidate {
     bool hasLayer = true;
@@ -85,41 +71,67 @@ struct ResidualCandidate {
     Eigen::ArrayXd errors; // squared, one a light
 };
 
-std::vector<ResidualCandidate> candidatesOf(const ResidualRows& rows, std::span<const Light> lights,
-                                            const ResidualJudge& judge)
+// What is left of each light's prediction where the other lights' predictions, so weighed, are taken from it: all by
+// the fold that has not seen the light. Without weights the prediction itself.
+Eigen::MatrixXf unseenBeyond(const UnseenRows& unseen, const Eigen::MatrixXf& weights)
+{
+    Eigen::MatrixXf left(unseen.predicted.front().rows(), weights.cols());
+    for (size_t fold = 0; fold < unseen.folds.size(); ++fold) {
+        const Eigen::MatrixXf& predicted = unseen.predicted[fold];
+        for (const size_t light : unseen.folds[fold]) {
+            const auto column = static_cast<Eigen::Index>(light);
+            left.col(column) = predicted.col(column) - predicted * weights.col(column);
+        }
+    }
+    return left;
+}
+
+std::vector<ResidualCandidate> candidatesOf(const ResidualRows& rows, const UnseenRows& unseen,
+                                            std::span<const Light> lights, const ResidualJudge& judge)
 {
     std::vector<glm::vec2> nodes;
     for (const Light& light : lights) {
         nodes.push_back(lightPlanePoint(light.direction));
     }
-    std::vector<ResidualCandidate> candidates = {{false, 1, 0, judge.errors(judge.unseen())}};
+    const auto count = static_cast<Eigen::Index>(nodes.size());
+    const Eigen::MatrixXf byBrdf = unseenBeyond(unseen, Eigen::MatrixXf::Zero(count, count));
+    std::vector<ResidualCandidate> candidates = {{false, 1, 0, judge.errors(byBrdf)}};
     for (const double penalty : kPenalties) {
         const Eigen::MatrixXf weights = leaveOneOutWeights(nodes, penalty).cast<float>().transpose();
-        const Eigen::MatrixXf observed = rows.observed * weights, predicted = rows.predicted * weights;
+        const Eigen::MatrixXf observed = rows.observed * weights, beyond = unseenBeyond(unseen, weights);
         for (const float trust : kTrusts) {
-            const Eigen::MatrixXf guess = observed + trust * (judge.unseen() - predicted);
-            candidates.push_back({true, trust, penalty, judge.errors(guess)});
+            candidates.push_back({true, trust, penalty, judge.errors(observed + trust * beyond)});
         }
     }
     return candidates;
 }
 
-// Student's t where the normal distribution has kLevelQuantile (Abramowitz and Stegun, Handbook of Mathematical
+// Student's t where the normal distribution has z (Abramowitz and Stegun, Handbook of Mathematical
 // Functions, 1964, 26.7.5).
-double studentQuantile(double freedom)
+double studentQuantile(double z, double freedom)
 {
-    const double z = kLevelQuantile, z3 = z * z * z, z5 = z3 * z * z;
+    const double z3 = z * z * z, z5 = z3 * z * z;
     return z + (z3 + z) / (4 * freedom) + (5 * z5 + 16 * z3 + 3 * z) / (96 * freedom * freedom);
 }
 
-// By how much the mean error surely falls.
-double certainGain(const ResidualCandidate& usual, const ResidualCandidate& other)
+// By how much the mean gain, one a light, surely exceeds 0 so many standard errors away.
+double certainGain(const Eigen::ArrayXd& gain, double quantileOfNormal)
 {
-    const Eigen::ArrayXd gain = usual.errors - other.errors;
     const auto count = static_cast<double>(gain.size());
     const double freedom = std::max(count - 1, 1.0);
     const double variance = (gain - gain.mean()).square().sum() / freedom;
-    return gain.mean() - studentQuantile(freedom) * std::sqrt(variance / count);
+    return gain.mean() - studentQuantile(quantileOfNormal, freedom) * std::sqrt(variance / count);
+}
+
+// A light that is left out is further from the others than those that will be asked for between them. That makes
+// splines look worse than they will be, and says nothing against the BRDF: who trusts them more needs less evidence.
+bool isSurelyBetter(const ResidualCandidate& other, const ResidualCandidate& usual)
+{
+    if (other.hasLayer && other.trust < usual.trust) {
+        const Eigen::ArrayXd gain = usual.errors.max(kLeastError).log10() - other.errors.max(kLeastError).log10();
+        return certainGain(gain, kOneStandardError) > 0;
+    }
+    return certainGain(usual.errors - other.errors, kLevelQuantile) > 0;
 }
 
 const ResidualCandidate& bestOf(const std::vector<ResidualCandidate>& candidates, bool layersAlone)
@@ -131,7 +143,7 @@ const ResidualCandidate& bestOf(const std::vector<ResidualCandidate>& candidates
     const ResidualCandidate* best = &usual;
     for (const ResidualCandidate& candidate : candidates) {
         const bool allowed = candidate.hasLayer || !layersAlone;
-        if (allowed && certainGain(usual, candidate) > 0 && candidate.errors.mean() < best->errors.mean()) {
+        if (allowed && isSurelyBetter(candidate, usual) && candidate.errors.mean() < best->errors.mean()) {
             best = &candidate;
         }
     }
@@ -140,10 +152,10 @@ const ResidualCandidate& bestOf(const std::vector<ResidualCandidate>& candidates
 
 } // namespace
 
-ResidualFit chooseResidualFit(const ResidualRows& rows, std::span<const Light> lights, const ResidualJudge& judge,
-                              ResidualChoice choice)
+ResidualFit chooseResidualFit(const ResidualRows& rows, const UnseenRows& unseen, std::span<const Light> lights,
+                              const ResidualJudge& judge, ResidualChoice choice)
 {
-    const std::vector<ResidualCandidate> candidates = candidatesOf(rows, lights, judge);
+    const std::vector<ResidualCandidate> candidates = candidatesOf(rows, unseen, lights, judge);
     const bool forced = choice == ResidualChoice::difference;
     const ResidualCandidate& best = bestOf(candidates, forced);
     const ResidualCandidate& layer = best.hasLayer ? best : bestOf(candidates, true);

@@ -17,16 +17,11 @@ public:
     // Squared errors, one a light. Guesses: radiance over irradiance, laid out as ResidualRows is.
     Eigen::ArrayXd errors(const Eigen::MatrixXf& guess) const;
 
-    // What the BRDF would have said of each light without having seen it, to first order: its errors raised by their
-    // leverage on Lambertian normals (Allen, The Relationship between Variable Selection and Data Augmentation, 1974).
-    const Eigen::MatrixXf& unseen() const { return unseen_; }
-
 private:
     Eigen::ArrayXXf shown(const Eigen::MatrixXf& rows) const;
 
     Eigen::ArrayXXf scales_; // [channel, light]: of radiance over irradiance to radiance over peak
     Eigen::ArrayXXf truth_;
-    Eigen::MatrixXf unseen_;
 };
 
 // dB, the mean over the lights: one at the edge, whose errors are many times the others', does not speak for all.
@@ -35,11 +30,14 @@ double meanDecibels(const Eigen::ArrayXd& errors);
 // PSNR in dB, the errors of all lights pooled.
 double pooledDecibels(const Eigen::ArrayXd& errors);
 
-// A half-trusted BRDF with moderate smoothing is what is taken unless another setting is better, in the mean over the
-// lights left out, at a level of 5 % shared by all settings (Student's t; Dunn, Multiple Comparisons among Means,
-// 1961): few lights cannot tell settings apart. In either case the layer is kept where it pays by kResidualMargin.
-ResidualFit chooseResidualFit(const ResidualRows& rows, std::span<const Light> lights, const ResidualJudge& judge,
-                              ResidualChoice choice);
+// Every guess of a light is made by a spline through the others and a BRDF that has not seen it. A half-trusted BRDF
+// with moderate smoothing is what is taken unless another setting is better, in the mean over the lights left out: few
+// lights cannot tell settings apart. More trust in the BRDF takes a level of 5 % shared by all settings (Student's t;
+// Dunn, Multiple Comparisons among Means, 1961); less trust one standard error, light by light in dB, since the lights
+// left out are further from the others than what is asked for between them. In either case the layer is kept where it
+// pays by kResidualMargin.
+ResidualFit chooseResidualFit(const ResidualRows& rows, const UnseenRows& unseen, std::span<const Light> lights,
+                              const ResidualJudge& judge, ResidualChoice choice);
 
 // dB that errors of another kind, one a light, cost under lights left out.
 double lossByErrors(const ResidualFit& fit, const Eigen::ArrayXd& errors);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include <fmt/format.h>
 
@@ -124,29 +125,62 @@ std::string whyNoLayer(const std::vector<Light>& lights, const std::vector<glm::
     return LightHull(nodes).area() < kLeastHullArea ? "the lights lie on a line" : "";
 }
 
-// Rows of an even sample of the shaded pixels.
-ResidualRows sampleRows(const Surface& surface, ObservationBlocks& blocks, size_t shaded, size_t most)
+// An even sample of the shaded pixels.
+Observations sampleOf(const Surface& surface, ObservationBlocks& blocks, size_t shaded, size_t most)
 {
     const size_t stride = std::max<size_t>(1, (shaded + most - 1) / most);
-    const LightBalls tables(surface, 0, 1);
     size_t seen = 0;
-    ResidualRows all;
+    Observations sample;
     while (const Observations* block = blocks.next()) {
-        std::vector<size_t> places;
+        sample.lightCount = block->lightCount;
+        sample.width = block->width;
         for (const size_t place : shadedPlaces(*block, surface)) {
             if (seen++ % stride == 0) {
-                places.push_back(place);
+                const auto radiance = block->radianceOf(place);
+                const auto saturated = block->saturatedOf(place);
+                sample.pixels.push_back(block->pixels[place]);
+                sample.radiance.insert(sample.radiance.end(), radiance.begin(), radiance.end());
+                sample.saturated.insert(sample.saturated.end(), saturated.begin(), saturated.end());
             }
         }
-        const ResidualRows rows = residualRows(*block, places, surface, tables);
-        const Eigen::Index before = all.observed.rows();
-        all.observed.conservativeResize(before + rows.observed.rows(), rows.observed.cols());
-        all.predicted.conservativeResizeLike(all.observed);
-        all.pixels.insert(all.pixels.end(), rows.pixels.begin(), rows.pixels.end());
-        all.observed.bottomRows(rows.observed.rows()) = rows.observed;
-        all.predicted.bottomRows(rows.predicted.rows()) = rows.predicted;
     }
-    return all;
+    return sample;
+}
+
+std::vector<size_t> allPlaces(const Observations& sample)
+{
+    std::vector<size_t> places(sample.pixels.size());
+    std::iota(places.begin(), places.end(), size_t{0});
+    return places;
+}
+
+constexpr size_t kMostFolds =
+    12; // of few lights each is left out alone; of many, one more or less is nothing to the BRDF
+
+// Pixels that cannot be measured without some lights keep what the whole surface says of them.
+UnseenRows unseenRows(const Observations& sample, const ResidualRows& rows, const Remeasure& remeasure)
+{
+    const size_t lights = sample.lightCount, folds = std::min(lights, kMostFolds);
+    UnseenRows unseen;
+    for (size_t fold = 0; fold < folds; ++fold) {
+        std::vector<size_t> without;
+        for (size_t light = fold; light < lights; light += folds) {
+            without.push_back(light);
+        }
+        const Surface surface = remeasure(sample, without);
+        std::vector<uint32_t> pixels(sample.pixels.size());
+        std::iota(pixels.begin(), pixels.end(), 0u);
+        Eigen::MatrixXf predicted = predictedRows(LightBalls(surface, 0, 1), pixels, lights);
+        for (size_t p = 0; p < pixels.size(); ++p) {
+            if (!isShaded(surface, p)) {
+                const auto row = static_cast<Eigen::Index>(3 * p);
+                predicted.middleRows<3>(row) = rows.predicted.middleRows<3>(row);
+            }
+        }
+        unseen.folds.push_back(std::move(without));
+        unseen.predicted.push_back(std::move(predicted));
+    }
+    return unseen;
 }
 
 float brightnessOf(const ResidualRows& rows, const std::vector<Light>& lights)
@@ -199,7 +233,8 @@ size_t shadedPixels(const Surface& surface)
 
 } // namespace
 
-EstimatedResidual estimateResidual(const Surface& surface, const ResidualOptions& options, ObservationBlocks& blocks)
+EstimatedResidual estimateResidual(const Surface& surface, const ResidualOptions& options, ObservationBlocks& blocks,
+                                   const Remeasure& remeasure)
 {
     EstimatedResidual result;
     ResidualReport& report = result.report;
@@ -219,9 +254,11 @@ EstimatedResidual estimateResidual(const Surface& surface, const ResidualOptions
     if (!report.whyNot.empty() || options.choice == ResidualChoice::none || pixels == 0) {
         return result;
     }
-    const ResidualRows rows = sampleRows(surface, blocks, pixels, samplePixels(lights.size()));
+    const Observations sample = sampleOf(surface, blocks, pixels, samplePixels(lights.size()));
+    const ResidualRows rows = residualRows(sample, allPlaces(sample), surface, LightBalls(surface, 0, 1));
+    const UnseenRows unseen = unseenRows(sample, rows, remeasure);
     const ResidualJudge judge(rows, lights, brightnessOf(rows, lights));
-    report.fit = chooseResidualFit(rows, lights, judge, options.choice);
+    report.fit = chooseResidualFit(rows, unseen, lights, judge, options.choice);
     const size_t each = bytesPerComponent(pixels, lights.size());
     const size_t most = options.toleranceDecibels > 0 ? kMostResidualComponents : kMostUnasked;
     const size_t afforded = options.budgetBytes > 0 ? options.budgetBytes / each : most;

@@ -1,5 +1,7 @@
 #pragma once
 #include <cstddef>
+#include <functional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -45,8 +47,12 @@ struct EstimatedResidual {
     ResidualReport report;
 };
 
+// A picture of one row, the sample's pixels, as they would be measured without the lights named.
+using Remeasure = std::function<Surface(const Observations& sample, std::span<const size_t> without)>;
+
 // The layer of a finished surface, whose lights are the blocks'. Walks the blocks twice. Throws Error (data) where a
 // layer is insisted on and the lights are fewer than six or lie on a line.
-EstimatedResidual estimateResidual(const Surface& surface, const ResidualOptions& options, ObservationBlocks& blocks);
+EstimatedResidual estimateResidual(const Surface& surface, const ResidualOptions& options, ObservationBlocks& blocks,
+                                   const Remeasure& remeasure);
 
 } // namespace nacre

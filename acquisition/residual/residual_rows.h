@@ -35,6 +35,12 @@ struct ResidualRows {
     Eigen::MatrixXf predicted; // by the surface's BRDF
 };
 
+// The same pixels as surfaces predict them that have not seen some of the lights: each light is of one fold.
+struct UnseenRows {
+    std::vector<std::vector<size_t>> folds; // their lights
+    std::vector<Eigen::MatrixXf> predicted; // one a fold: all lights, laid out as ResidualRows is
+};
+
 // Of the block's pixels at `places`, all of which have a normal and a material. `balls` are the surface's.
 ResidualRows residualRows(const Observations& block, std::span<const size_t> places, const Surface& surface,
                           const LightBalls& balls);

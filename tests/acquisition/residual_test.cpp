@@ -128,9 +128,19 @@ ResidualRows rowsOf(const std::vector<Light>& lights, float amount)
     return rows;
 }
 
+// A BRDF that predicts the same whether it has seen a light or not.
+UnseenRows seenOrNot(const ResidualRows& rows)
+{
+    UnseenRows unseen{{{}}, {rows.predicted}};
+    for (Eigen::Index light = 0; light < rows.predicted.cols(); ++light) {
+        unseen.folds[0].push_back(static_cast<size_t>(light));
+    }
+    return unseen;
+}
+
 ResidualFit fitOf(const ResidualRows& rows, const std::vector<Light>& lights, ResidualChoice choice)
 {
-    return chooseResidualFit(rows, lights, ResidualJudge(rows, lights, 1), choice);
+    return chooseResidualFit(rows, seenOrNot(rows), lights, ResidualJudge(rows, lights, 1), choice);
 }
 
 TEST(ResidualChoice, KeepsNothingWhereTheBrdfIsRight)
@@ -165,13 +175,38 @@ TEST(ResidualChoice, StaysAtTheUsualSettingWhereOneLightSpeaksAlone)
     EXPECT_EQ(fit.penalty, 1e-2);
 }
 
+// The BRDF that has seen every light is right, those that have not are wrong everywhere: what is judged are those, and
+// where they explain nothing the layer is the spline alone.
+TEST(ResidualChoice, BelievesTheBrdfThatHasNotSeenTheLight)
+{
+    const std::vector<Light> lights = lightsOf(spiral(12));
+    ResidualRows rows = rowsOf(lights, 0.3f);
+    for (Eigen::Index i = 0; i < rows.observed.cols(); ++i) {
+        const glm::vec3& l = lights[i].direction;
+        rows.observed.col(i).setConstant(0.4f + 0.3f * l.x - 0.2f * l.y);
+    }
+    rows.predicted = rows.observed;
+    UnseenRows unseen = seenOrNot(rows);
+    for (Eigen::Index i = 0; i < 12; ++i) {
+        unseen.predicted[0].col(i).array() += 0.1f * std::sin(5.0f * static_cast<float>(i));
+    }
+    const ResidualJudge judge(rows, lights, 1);
+    const ResidualFit fit = chooseResidualFit(rows, unseen, lights, judge, ResidualChoice::automatic);
+    EXPECT_NEAR(fit.brdfPsnr, meanDecibels(judge.errors(unseen.predicted[0])), 1e-6);
+    EXPECT_TRUE(fit.isKept);
+    EXPECT_EQ(fit.trust, 0);
+    std::vector<glm::vec2> nodes = spiral(12);
+    const Eigen::MatrixXf alone = rows.observed * leaveOneOutWeights(nodes, 1e-2).cast<float>().transpose();
+    EXPECT_GE(fit.layerPsnr, meanDecibels(judge.errors(alone)) - 0.1);
+}
+
 TEST(ResidualComponents, LeaveOutNoMoreThanIsAllowed)
 {
     const std::vector<Light> lights = lightsOf(spiral(24));
     const ResidualRows rows = rowsOf(lights, 0.3f);
     const ResidualJudge judge(rows, lights, 1);
     ResidualReport report;
-    report.fit = chooseResidualFit(rows, lights, judge, ResidualChoice::automatic);
+    report.fit = chooseResidualFit(rows, seenOrNot(rows), lights, judge, ResidualChoice::automatic);
     const Eigen::MatrixXf few = chooseComponents(rows, judge, 0, 20, report);
     // rowsOf's residual is of rank two, and one of the two is not enough.
     EXPECT_EQ(few.cols(), 2);
@@ -220,6 +255,23 @@ Observations shownBy(const Surface& surface)
     return seen;
 }
 
+// Measuring the sample again finds the surface's own pixels.
+Remeasure asBefore(const Surface& surface)
+{
+    return [&surface](const Observations& sample, std::span<const size_t>) {
+        Surface row = surface;
+        row.normals = NormalMap(static_cast<int>(sample.pixels.size()), 1);
+        row.albedo = {};
+        row.labels.clear();
+        for (size_t p = 0; p < sample.pixels.size(); ++p) {
+            row.normals.normals[p] = surface.normals.normals[sample.pixels[p]];
+            row.normals.confidence[p] = surface.normals.confidence[sample.pixels[p]];
+            row.labels.push_back(surface.labels[sample.pixels[p]]);
+        }
+        return row;
+    };
+}
+
 TEST(ResidualEstimate, ShowsThePhotographsAgain)
 {
     Surface surface = residualSurface(16);
@@ -227,7 +279,7 @@ TEST(ResidualEstimate, ShowsThePhotographsAgain)
     const Observations seen = shownBy(surface);
     ObservationBlocks blocks({seen});
     const ResidualOptions options{.choice = ResidualChoice::difference, .toleranceDecibels = 50, .threads = 1};
-    EstimatedResidual estimated = estimateResidual(surface, options, blocks);
+    EstimatedResidual estimated = estimateResidual(surface, options, blocks, asBefore(surface));
     surface.residual = std::move(estimated.layer);
     ASSERT_FALSE(surface.residual.empty());
     EXPECT_GE(estimated.report.capturedPsnr, 50);
@@ -263,7 +315,9 @@ TEST(ResidualEstimate, SameBytesForOneAndTwoThreadsAndAnyBlocks)
     };
     const auto layerOf = [&](int threads, size_t size) {
         ObservationBlocks blocks = inBlocks(size);
-        return estimateResidual(surface, {.choice = ResidualChoice::difference, .threads = threads}, blocks).layer;
+        return estimateResidual(surface, {.choice = ResidualChoice::difference, .threads = threads}, blocks,
+                                asBefore(surface))
+            .layer;
     };
     const ResidualLayer one = layerOf(1, 1024), two = layerOf(2, 1024), small = layerOf(2, 100);
     EXPECT_EQ(one.codes, two.codes);
@@ -280,7 +334,7 @@ TEST(ResidualEstimate, BudgetsAreKept)
     const size_t budget = 2 * (16 * 16 + 12 * sizeof(glm::vec3));
     const auto reportOf = [&](size_t bytes) {
         return estimateResidual(surface, {.choice = ResidualChoice::difference, .budgetBytes = bytes, .threads = 1},
-                                blocks)
+                                blocks, asBefore(surface))
             .report;
     };
     const ResidualReport kept = reportOf(budget);
@@ -298,16 +352,18 @@ TEST(ResidualEstimate, LightsThatCannotTellAreNamed)
     surface.residual = {};
     surface.lights.resize(5);
     ObservationBlocks none(std::vector<Observations>{});
-    EstimatedResidual estimated = estimateResidual(surface, {.choice = ResidualChoice::automatic}, none);
+    EstimatedResidual estimated =
+        estimateResidual(surface, {.choice = ResidualChoice::automatic}, none, asBefore(surface));
     EXPECT_TRUE(estimated.layer.empty());
     EXPECT_NE(estimated.report.whyNot.find("5 lights"), std::string::npos) << estimated.report.whyNot;
-    expectError([&] { estimateResidual(surface, {.choice = ResidualChoice::difference}, none); }, {"5 lights"});
+    expectError([&] { estimateResidual(surface, {.choice = ResidualChoice::difference}, none, asBefore(surface)); },
+                {"5 lights"});
     surface.lights.clear();
     for (int i = 0; i < 8; ++i) {
         const glm::vec3 l(0.1f * static_cast<float>(i) - 0.4f, 0, 1);
         surface.lights.push_back({std::to_string(i), {glm::normalize(l), {1, 1, 1}}});
     }
-    estimated = estimateResidual(surface, {.choice = ResidualChoice::automatic}, none);
+    estimated = estimateResidual(surface, {.choice = ResidualChoice::automatic}, none, asBefore(surface));
     EXPECT_NE(estimated.report.whyNot.find("line"), std::string::npos) << estimated.report.whyNot;
 }
 
@@ -322,7 +378,9 @@ TEST(ResidualEstimate, BlackAndEqualPhotographsStayBounded)
         seen.radiance[p * seen.lightCount + 5] = glm::vec3(0);
     }
     ObservationBlocks blocks({seen});
-    surface.residual = estimateResidual(surface, {.choice = ResidualChoice::difference, .threads = 1}, blocks).layer;
+    surface.residual =
+        estimateResidual(surface, {.choice = ResidualChoice::difference, .threads = 1}, blocks, asBefore(surface))
+            .layer;
     for (const glm::vec3& direction : {glm::vec3(0, 0, 1), glm::vec3(1, 0, 0), glm::normalize(glm::vec3(1, 1, -1))}) {
         const ResidualFrame frame = residualFrame(surface.residual, std::vector<Light>{{direction, {1, 1, 1}}});
         for (size_t p = 0; p < seen.pixels.size(); ++p) {
