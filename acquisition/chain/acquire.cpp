@@ -129,8 +129,8 @@ NormalsAndSamples estimateAndSample(PreparedCapture& prepared, const Capture& ca
     clock.enter("choosing");
     const ChosenMethod chosen = chooseMethod(prepared, segmentation, options);
     const LocalLights lights = prepared.localLights();
-    NormalsAndSamples result{startEstimate(prepared, chosen),
-                             startSamples(capture, lights, segmentation, options.bake), chosen};
+    NormalsAndSamples result{startEstimate(prepared, chosen), startSamples(capture, lights, segmentation, options.bake),
+                             chosen};
     BlockWalk walk(prepared.blocks, clock, progress, "normals");
     while (const Observations* seen = walk.next()) {
         forEachDirect(prepared, chosen, *seen, options.normals.threads, [&](const Observations& block) {

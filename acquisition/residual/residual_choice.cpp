@@ -6,9 +6,8 @@
 
 #include <Eigen/Dense>
 
-#include "acquisition/residual/light_spline.h"
+#include "acquisition/residual/light_interpolation.h"
 #include "engine/files/hash_random.h"
-#include "engine/lights/light_plane.h"
 
 namespace nacre {
 
@@ -57,19 +56,9 @@ double pooledDecibels(const Eigen::ArrayXd& errors)
 
 namespace {
 
-constexpr double kPenalties[] = {1e-4, 1e-3, 1e-2, 1e-1};
 constexpr float kTrusts[] = {0, 0.25f, 0.5f, 0.75f, 1};
-constexpr double kUsualPenalty = 1e-2;
 constexpr float kUsualTrust = 0.5f;
-constexpr double kLevelQuantile = 2.807; // of the normal distribution at 5 % over the 20 settings compared
-constexpr double kOneStandardError = 1;
-
-struct ResidualCandidate {
-    bool hasLayer = true;
-    float trust = 1;
-    double penalty = 0;
-    Eigen::ArrayXd errors; // squared, one a light
-};
+constexpr double kTrustMargin = 0.5; // dB
 
 // What is left of each light's prediction where the other lights' predictions, so weighed, are taken from it: all by
 // the fold that has not seen the light. Without weights the prediction itself.
@@ -86,85 +75,40 @@ Eigen::MatrixXf unseenBeyond(const UnseenRows& unseen, const Eigen::MatrixXf& we
     return left;
 }
 
-std::vector<ResidualCandidate> candidatesOf(const ResidualRows& rows, const UnseenRows& unseen,
-                                            std::span<const Light> lights, const ResidualJudge& judge)
-{
-    std::vector<glm::vec2> nodes;
-    for (const Light& light : lights) {
-        nodes.push_back(lightPlanePoint(light.direction));
-    }
-    const auto count = static_cast<Eigen::Index>(nodes.size());
-    const Eigen::MatrixXf byBrdf = unseenBeyond(unseen, Eigen::MatrixXf::Zero(count, count));
-    std::vector<ResidualCandidate> candidates = {{false, 1, 0, judge.errors(byBrdf)}};
-    for (const double penalty : kPenalties) {
-        const Eigen::MatrixXf weights = leaveOneOutWeights(nodes, penalty).cast<float>().transpose();
-        const Eigen::MatrixXf observed = rows.observed * weights, beyond = unseenBeyond(unseen, weights);
-        for (const float trust : kTrusts) {
-            candidates.push_back({true, trust, penalty, judge.errors(observed + trust * beyond)});
-        }
-    }
-    return candidates;
-}
+struct ResidualCandidate {
+    float trust = 1;
+    Eigen::ArrayXd errors; // squared, one a light
+    double psnr = 0;       // dB, their mean
+};
 
-// Student's t where the normal distribution has z (Abramowitz and Stegun, Handbook of Mathematical
-// Functions, 1964, 26.7.5).
-double studentQuantile(double z, double freedom)
+const ResidualCandidate& bestOf(const std::vector<ResidualCandidate>& candidates)
 {
-    const double z3 = z * z * z, z5 = z3 * z * z;
-    return z + (z3 + z) / (4 * freedom) + (5 * z5 + 16 * z3 + 3 * z) / (96 * freedom * freedom);
-}
-
-// By how much the mean gain, one a light, surely exceeds 0 so many standard errors away.
-double certainGain(const Eigen::ArrayXd& gain, double quantileOfNormal)
-{
-    const auto count = static_cast<double>(gain.size());
-    const double freedom = std::max(count - 1, 1.0);
-    const double variance = (gain - gain.mean()).square().sum() / freedom;
-    return gain.mean() - studentQuantile(quantileOfNormal, freedom) * std::sqrt(variance / count);
-}
-
-// A light that is left out is further from the others than those that will be asked for between them. That makes
-// splines look worse than they will be, and says nothing against the BRDF: who trusts them more needs less evidence.
-bool isSurelyBetter(const ResidualCandidate& other, const ResidualCandidate& usual)
-{
-    if (other.hasLayer && other.trust < usual.trust) {
-        const Eigen::ArrayXd gain = usual.errors.max(kLeastError).log10() - other.errors.max(kLeastError).log10();
-        return certainGain(gain, kOneStandardError) > 0;
-    }
-    return certainGain(usual.errors - other.errors, kLevelQuantile) > 0;
-}
-
-const ResidualCandidate& bestOf(const std::vector<ResidualCandidate>& candidates, bool layersAlone)
-{
-    const auto isUsual = [](const ResidualCandidate& c) {
-        return c.penalty == kUsualPenalty && c.trust == kUsualTrust;
+    const auto less = [](const ResidualCandidate& a, const ResidualCandidate& b) {
+        return a.psnr + (a.trust == kUsualTrust ? kTrustMargin : 0) <
+               b.psnr + (b.trust == kUsualTrust ? kTrustMargin : 0);
     };
-    const ResidualCandidate& usual = *std::find_if(candidates.begin(), candidates.end(), isUsual);
-    const ResidualCandidate* best = &usual;
-    for (const ResidualCandidate& candidate : candidates) {
-        const bool allowed = candidate.hasLayer || !layersAlone;
-        if (allowed && isSurelyBetter(candidate, usual) && candidate.errors.mean() < best->errors.mean()) {
-            best = &candidate;
-        }
-    }
-    return *best;
+    return *std::max_element(candidates.begin(), candidates.end(), less);
 }
 
 } // namespace
 
-ResidualFit chooseResidualFit(const ResidualRows& rows, const UnseenRows& unseen, std::span<const Light> lights,
+ResidualFit chooseResidualFit(const ResidualRows& rows, const UnseenRows& unseen, std::span<const glm::vec3> nodes,
                               const ResidualJudge& judge, ResidualChoice choice)
 {
-    const std::vector<ResidualCandidate> candidates = candidatesOf(rows, unseen, lights, judge);
-    const bool forced = choice == ResidualChoice::difference;
-    const ResidualCandidate& best = bestOf(candidates, forced);
-    const ResidualCandidate& layer = best.hasLayer ? best : bestOf(candidates, true);
+    const Eigen::MatrixXf weights = leaveOneOutWeights(nodes).cast<float>().transpose();
+    const Eigen::MatrixXf byOthers = rows.observed * weights, beyond = unseenBeyond(unseen, weights);
+    std::vector<ResidualCandidate> layers;
+    for (const float trust : kTrusts) {
+        const Eigen::ArrayXd errors = judge.errors(byOthers + trust * beyond);
+        layers.push_back({trust, errors, meanDecibels(errors)});
+    }
+    const ResidualCandidate& layer = bestOf(layers);
+    const Eigen::MatrixXf byBrdf = unseenBeyond(unseen, Eigen::MatrixXf::Zero(weights.rows(), weights.cols()));
     ResidualFit fit{.trust = layer.trust,
-                    .penalty = layer.penalty,
-                    .brdfPsnr = meanDecibels(candidates.front().errors),
-                    .layerPsnr = meanDecibels(layer.errors),
+                    .brdfPsnr = meanDecibels(judge.errors(byBrdf)),
+                    .layerPsnr = layer.psnr,
                     .layerErrors = {layer.errors.begin(), layer.errors.end()}};
-    fit.isKept = forced || (best.hasLayer && fit.layerPsnr > fit.brdfPsnr + kResidualMargin);
+    fit.isKept = choice == ResidualChoice::difference || fit.layerPsnr > fit.brdfPsnr + kResidualMargin;
     return fit;
 }
 

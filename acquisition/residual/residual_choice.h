@@ -30,13 +30,10 @@ double meanDecibels(const Eigen::ArrayXd& errors);
 // PSNR in dB, the errors of all lights pooled.
 double pooledDecibels(const Eigen::ArrayXd& errors);
 
-// Every guess of a light is made by a spline through the others and a BRDF that has not seen it. A half-trusted BRDF
-// with moderate smoothing is what is taken unless another setting is better, in the mean over the lights left out: few
-// lights cannot tell settings apart. More trust in the BRDF takes a level of 5 % shared by all settings (Student's t;
-// Dunn, Multiple Comparisons among Means, 1961); less trust one standard error, light by light in dB, since the lights
-// left out are further from the others than what is asked for between them. In either case the layer is kept where it
-// pays by kResidualMargin.
-ResidualFit chooseResidualFit(const ResidualRows& rows, const UnseenRows& unseen, std::span<const Light> lights,
+// Every guess of a light is made from the others and by a BRDF that has not seen it. The BRDF is half trusted unless
+// another share is better by half a decibel in the mean over the lights left out: few lights cannot tell more. The
+// layer is kept where it pays by kResidualMargin, or where it is insisted on. `nodes`: directions of the lights.
+ResidualFit chooseResidualFit(const ResidualRows& rows, const UnseenRows& unseen, std::span<const glm::vec3> nodes,
                               const ResidualJudge& judge, ResidualChoice choice);
 
 // dB that errors of another kind, one a light, cost under lights left out.

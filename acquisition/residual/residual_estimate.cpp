@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "acquisition/residual/light_spline.h"
+#include "acquisition/residual/light_interpolation.h"
 #include "acquisition/residual/residual_choice.h"
 #include "acquisition/residual/residual_rows.h"
 #include "engine/files/error.h"
@@ -17,12 +17,12 @@ namespace nacre {
 
 namespace {
 
-// Turns photographs, block by block, into a layer's component pictures of 8 bits, and its basis into splines.
+// Turns photographs, block by block, into a layer's component pictures of 8 bits, and its basis into weights.
 class ResidualEncoder {
 public:
     // `sample` sets the range of each component, with a reserve; what lies beyond is clamped. `basis`: orthonormal
     // columns over [channel * lights + light]. Surface and balls are referred to while the encoder lives.
-    ResidualEncoder(const Surface& surface, const LightBalls& balls, const std::vector<glm::vec2>& nodes,
+    ResidualEncoder(const Surface& surface, const LightBalls& balls, const std::vector<glm::vec3>& nodes,
                     const ResidualFit& fit, const ResidualRows& sample, Eigen::MatrixXf basis);
 
     void encode(const Observations& block, int threads);
@@ -50,25 +50,23 @@ void setRanges(const Eigen::MatrixXf& amounts, ResidualLayer& layer)
     }
 }
 
-// The components' amounts under each captured light, as splines between them.
-std::vector<glm::vec3> splinesOf(const Eigen::MatrixXf& basis, const std::vector<glm::vec2>& nodes, double penalty)
+// The layer's weights, from the components' amounts under each captured light.
+std::vector<glm::vec3> weightsOf(const Eigen::MatrixXf& basis, const std::vector<glm::vec3>& nodes)
 {
-    const Eigen::MatrixXf factors = splineFactors(nodes, penalty).cast<float>();
+    const Eigen::MatrixXf factors = interpolationFactors(nodes).cast<float>();
     const auto lights = static_cast<Eigen::Index>(nodes.size());
     std::vector<glm::vec3> weights;
     for (Eigen::Index k = 0; k < basis.cols(); ++k) {
-        Eigen::MatrixXf terms(factors.rows(), 3);
-        for (Eigen::Index c = 0; c < 3; ++c) {
-            terms.col(c) = factors * basis.col(k).segment(c * lights, lights);
-        }
-        for (Eigen::Index i = 0; i < terms.rows(); ++i) {
-            weights.emplace_back(terms(i, 0), terms(i, 1), terms(i, 2));
+        const Eigen::Map<const Eigen::MatrixXf> amounts(basis.col(k).data(), lights, 3);
+        const Eigen::MatrixXf channels = factors * amounts;
+        for (Eigen::Index i = 0; i < lights; ++i) {
+            weights.emplace_back(channels(i, 0), channels(i, 1), channels(i, 2));
         }
     }
     return weights;
 }
 
-ResidualEncoder::ResidualEncoder(const Surface& surface, const LightBalls& balls, const std::vector<glm::vec2>& nodes,
+ResidualEncoder::ResidualEncoder(const Surface& surface, const LightBalls& balls, const std::vector<glm::vec3>& nodes,
                                  const ResidualFit& fit, const ResidualRows& sample, Eigen::MatrixXf basis)
     : surface_(surface), balls_(balls), basis_(std::move(basis))
 {
@@ -77,7 +75,7 @@ ResidualEncoder::ResidualEncoder(const Surface& surface, const LightBalls& balls
     layer.components = static_cast<int>(basis_.cols());
     layer.trust = fit.trust;
     layer.nodes = nodes;
-    layer.weights = splinesOf(basis_, nodes, fit.penalty);
+    layer.weights = weightsOf(basis_, nodes);
     layer.codes.assign(layer.layers() * layer.pixelCount() * kComponentsPerTexel, 0);
     setRanges(residualsOf(sample, fit.trust) * basis_, layer);
 }
@@ -117,12 +115,12 @@ size_t samplePixels(size_t lights)
     return std::clamp<size_t>(size_t{25'000'000} / (lights * lights), 512, 2048);
 }
 
-std::string whyNoLayer(const std::vector<Light>& lights, const std::vector<glm::vec2>& nodes)
+std::string whyNoLayer(const std::vector<Light>& lights, const std::vector<glm::vec3>& nodes)
 {
     if (lights.size() < kFewestResidualLights) {
         return fmt::format("{} lights are too few to guess between them", lights.size());
     }
-    return LightHull(nodes).area() < kLeastHullArea ? "the lights lie on a line" : "";
+    return LightHull(lightPlanePoints(nodes)).area() < kLeastHullArea ? "the lights lie on a line" : "";
 }
 
 // An even sample of the shaded pixels.
@@ -219,7 +217,7 @@ LightBalls quickBalls(const Surface& surface, const ResidualRows& rows, const Re
 // Bytes of one component: its picture on the shaded pixels and its weights.
 size_t bytesPerComponent(size_t pixels, size_t lights)
 {
-    return pixels + (lights + 3) * sizeof(glm::vec3);
+    return pixels + lights * sizeof(glm::vec3);
 }
 
 size_t shadedPixels(const Surface& surface)
@@ -240,10 +238,10 @@ EstimatedResidual estimateResidual(const Surface& surface, const ResidualOptions
     ResidualReport& report = result.report;
     report.choice = options.choice;
     std::vector<Light> lights;
-    std::vector<glm::vec2> nodes;
+    std::vector<glm::vec3> nodes;
     for (const CapturedLight& light : surface.lights) {
         lights.push_back(light.light);
-        nodes.push_back(lightPlanePoint(light.light.direction));
+        nodes.push_back(light.light.direction);
     }
     report.whyNot = whyNoLayer(lights, nodes);
     if (!report.whyNot.empty() && options.choice == ResidualChoice::difference) {
@@ -258,7 +256,7 @@ EstimatedResidual estimateResidual(const Surface& surface, const ResidualOptions
     const ResidualRows rows = residualRows(sample, allPlaces(sample), surface, LightBalls(surface, 0, 1));
     const UnseenRows unseen = unseenRows(sample, rows, remeasure);
     const ResidualJudge judge(rows, lights, brightnessOf(rows, lights));
-    report.fit = chooseResidualFit(rows, unseen, lights, judge, options.choice);
+    report.fit = chooseResidualFit(rows, unseen, nodes, judge, options.choice);
     const size_t each = bytesPerComponent(pixels, lights.size());
     const size_t most = options.toleranceDecibels > 0 ? kMostResidualComponents : kMostUnasked;
     const size_t afforded = options.budgetBytes > 0 ? options.budgetBytes / each : most;

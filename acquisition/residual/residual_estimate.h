@@ -24,7 +24,6 @@ struct ResidualOptions {
 struct ResidualFit {
     bool isKept = false;
     float trust = 1;                 // share of the BRDF's radiance that stays
-    double penalty = 0;              // of the spline
     double brdfPsnr = 0;             // dB of radiance under the lights left out, their mean, by the BRDF alone
     double layerPsnr = 0;            // and with the layer
     std::vector<double> layerErrors; // squared, of peak 1: one a light

@@ -129,7 +129,6 @@ nlohmann::json documentOf(const ResidualReport& report)
     return {{"components", report.components},
             {"bytes", report.bytes},
             {"trust", report.fit.trust},
-            {"penalty", report.fit.penalty},
             {"leftOutByBrdf", report.fit.brdfPsnr},
             {"leftOutWithLayer", report.fit.layerPsnr},
             {"capturedPsnr", report.capturedPsnr},

@@ -49,10 +49,13 @@ glm::vec2 lightPlanePoint(const glm::vec3& direction)
     return radius > 0 ? point * ((2 - radius) / radius) : glm::vec2(2, 0);
 }
 
-double thinPlateKernel(const glm::vec2& a, const glm::vec2& b)
+std::vector<glm::vec2> lightPlanePoints(std::span<const glm::vec3> directions)
 {
-    const double x = double{a.x} - b.x, y = double{a.y} - b.y, r2 = x * x + y * y;
-    return r2 > 0 ? 0.5 * r2 * std::log(r2) : 0.0;
+    std::vector<glm::vec2> points;
+    for (const glm::vec3& direction : directions) {
+        points.push_back(lightPlanePoint(direction));
+    }
+    return points;
 }
 
 LightHull::LightHull(std::span<const glm::vec2> points)

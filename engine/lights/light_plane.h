@@ -10,10 +10,7 @@ namespace nacre {
 // Where a direction lies in the plane of lights: (x, y) in front, continued beyond the unit circle behind, so that the
 // direction away from the camera is 2 from the middle.
 glm::vec2 lightPlanePoint(const glm::vec3& direction);
-
-// The kernel of a thin-plate spline, r^2 log r of the distance (Wahba, Spline Models for Observational Data, 1990, Eq.
-// 2.4).
-double thinPlateKernel(const glm::vec2& a, const glm::vec2& b);
+std::vector<glm::vec2> lightPlanePoints(std::span<const glm::vec3> directions);
 
 // The part of the plane that captured lights surround: their convex hull.
 class LightHull {

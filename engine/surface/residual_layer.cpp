@@ -6,10 +6,11 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "engine/lights/light_covariance.h"
+
 namespace nacre {
 namespace {
 
-constexpr float kOutsidePace = 0.5f;           // of the light, beyond the hull
 constexpr double kFadesFrom = 2, kFadesTo = 4; // of the lights' spacings
 constexpr double kLeastSpacing = 0.02;         // lights that (nearly) coincide still reach a degree about them
 constexpr double kMostSpacing = 0.25; // nothing is left a radius of the plane away, behind what faces the lights
@@ -39,14 +40,8 @@ void addLight(const ResidualLayer& layer, const ResidualLight& at, const Light& 
 
 } // namespace
 
-glm::vec2 pacedOutside(const LightHull& hull, const glm::vec2& point)
-{
-    const glm::vec2 inside = hull.nearest(point);
-    return inside + kOutsidePace * (point - inside);
-}
-
 ResidualLights::ResidualLights(const ResidualLayer& layer)
-    : layer_(layer), spacing_(meanSpacing(layer.nodes)), hull_(layer.nodes)
+    : layer_(layer), points_(lightPlanePoints(layer.nodes)), spacing_(meanSpacing(points_)), hull_(points_)
 {
 }
 
@@ -60,17 +55,12 @@ ResidualLight ResidualLights::at(const glm::vec3& direction) const
     if (light.presence == 0) {
         return light;
     }
-    const glm::vec2 asked = pacedOutside(hull_, point);
-    std::vector<float> terms;
-    for (const glm::vec2& node : layer_.nodes) {
-        terms.push_back(static_cast<float>(thinPlateKernel(asked, node)));
-    }
-    terms.insert(terms.end(), {1, asked.x, asked.y});
-    for (int k = 0; k < layer_.components; ++k) {
-        for (size_t i = 0; i < terms.size(); ++i) {
-            light.weights[k] += terms[i] * layer_.weights[k * terms.size() + i];
+    const size_t count = layer_.nodes.size();
+    for (size_t i = 0; i < count; ++i) {
+        const float covariance = light.presence * static_cast<float>(lightCovariance(direction, layer_.nodes[i]));
+        for (int k = 0; k < layer_.components; ++k) {
+            light.weights[k] += covariance * layer_.weights[k * count + i];
         }
-        light.weights[k] *= light.presence;
     }
     return light;
 }

@@ -3,7 +3,7 @@
 #include <span>
 #include <vector>
 
-#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
 
 #include "engine/lights/light.h"
 #include "engine/lights/light_plane.h"
@@ -14,9 +14,9 @@ namespace nacre {
 // What a captured surface shows beyond its BRDF (cast shadows, interreflection, what normals get wrong), as a
 // difference that adds over lights: under a light of irradiance 1 a pixel shows
 //     trust * BRDF + sum over components k of weight_k(light) * component_k(pixel),
-// where weights are thin-plate splines over the plane of lights with the captured lights as nodes. Outside the captured
-// lights' hull weights go on half as fast as the light; from two to four of the lights' spacings away they fade out and
-// the BRDF is trusted wholly. For the captured pose and the view from the front alone.
+// where weights are interpolated from those of the captured lights by lightCovariance. From two to four of the lights'
+// spacings outside their hull they fade out and the BRDF is trusted wholly. For the captured pose and the view from the
+// front alone.
 struct ResidualLayer {
     int width = 0, height = 0;
     int components = 0;           // 0: there is no layer
@@ -24,14 +24,12 @@ struct ResidualLayer {
     std::vector<float> low;       // one a component: its value at code 0
     std::vector<float> high;      // and at code 255
     float trust = 1;              // share of the BRDF's radiance that stays
-    std::vector<glm::vec2> nodes; // captured lights, lightPlanePoint
-    std::vector<glm::vec3>
-        weights; // [component * (nodes + 3) + term]: RGB factors of each node's kernel, of 1, x and y
+    std::vector<glm::vec3> nodes; // directions of the captured lights
+    std::vector<glm::vec3> weights; // [component * nodes + node]: RGB factors of lightCovariance with each node
 
     bool empty() const { return components == 0; }
     size_t pixelCount() const { return static_cast<size_t>(width) * height; }
     size_t layers() const { return (components + kComponentsPerTexel - 1) / kComponentsPerTexel; }
-    size_t terms() const { return nodes.size() + 3; }
 };
 
 inline constexpr int kMostResidualComponents = kMostResidualLayers * kComponentsPerTexel;
@@ -46,10 +44,7 @@ struct ResidualLight {
     std::vector<glm::vec3> weights; // one a component, for irradiance 1
 };
 
-// Where splines are asked for the light at `point`: there inside the hull, half as far beyond it outside.
-glm::vec2 pacedOutside(const LightHull& hull, const glm::vec2& point);
-
-// Evaluates a layer's splines.
+// Evaluates a layer's weights.
 class ResidualLights {
 public:
     explicit ResidualLights(const ResidualLayer& layer);
@@ -57,6 +52,7 @@ public:
 
 private:
     const ResidualLayer& layer_;
+    std::vector<glm::vec2> points_; // of the nodes
     double spacing_;
     LightHull hull_;
 };

@@ -188,19 +188,19 @@ size_t codeIndex(const ResidualLayer& layer, int component, size_t pixel)
     return texel * kComponentsPerTexel + component % kComponentsPerTexel;
 }
 
-// residual_NN.png, one grey picture a component, and residual_weights.exr, a row a component and a column a term of its
-// spline.
+// residual_NN.png, one grey picture a component, and residual_weights.exr, a row a component and a column a captured
+// light.
 nlohmann::json saveResidual(const fs::path& folder, const ResidualLayer& layer)
 {
-    Image weights(static_cast<int>(layer.terms()), layer.components, 3);
+    Image weights(static_cast<int>(layer.nodes.size()), layer.components, 3);
     for (int k = 0; k < layer.components; ++k) {
         Image picture(layer.width, layer.height, 1);
         for (size_t i = 0; i < layer.pixelCount(); ++i) {
             picture.values[i] = layer.codes[codeIndex(layer, k, i)] / 255.0f;
         }
         saveImage(folder / componentFile(k), picture, PixelType::uint8);
-        for (size_t i = 0; i < layer.terms(); ++i) {
-            weights.setRgb(static_cast<int>(i), k, layer.weights[k * layer.terms() + i]);
+        for (size_t i = 0; i < layer.nodes.size(); ++i) {
+            weights.setRgb(static_cast<int>(i), k, layer.weights[k * layer.nodes.size() + i]);
         }
     }
     saveImage(folder / kWeightFile, weights, PixelType::float32);
@@ -226,7 +226,7 @@ ResidualLayer emptyLayer(const JsonNode& node, const Surface& surface)
     layer.high = node.at("high").floats(count);
     layer.components = static_cast<int>(count);
     for (const CapturedLight& light : surface.lights) {
-        layer.nodes.push_back(lightPlanePoint(light.light.direction));
+        layer.nodes.push_back(light.light.direction);
     }
     layer.codes.assign(layer.layers() * layer.pixelCount() * kComponentsPerTexel, 0);
     return layer;
@@ -236,13 +236,13 @@ ResidualLayer residualOf(const JsonNode& node, const Surface& surface)
 {
     const fs::path folder = node.file().parent_path();
     ResidualLayer layer = emptyLayer(node, surface);
-    const Image weights = loadPicture(folder / kWeightFile, static_cast<int>(layer.terms()), layer.components, 3);
+    const Image weights = loadPicture(folder / kWeightFile, static_cast<int>(layer.nodes.size()), layer.components, 3);
     for (int k = 0; k < layer.components; ++k) {
         const Image picture = loadPicture(folder / componentFile(k), layer.width, layer.height, 1);
         for (size_t i = 0; i < layer.pixelCount(); ++i) {
             layer.codes[codeIndex(layer, k, i)] = static_cast<uint8_t>(picture.values[i] * 255.0f + 0.5f);
         }
-        for (size_t i = 0; i < layer.terms(); ++i) {
+        for (size_t i = 0; i < layer.nodes.size(); ++i) {
             layer.weights.push_back(weights.rgb(static_cast<int>(i), k));
         }
     }

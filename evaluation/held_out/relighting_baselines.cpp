@@ -6,7 +6,6 @@
 #include <Eigen/Dense>
 #include <glm/geometric.hpp>
 
-#include "acquisition/residual/light_spline.h"
 #include "engine/lights/light_plane.h"
 #include "engine/rti/rti_picture.h"
 
@@ -72,14 +71,38 @@ Eigen::MatrixXd gaussianWeights(const Smoothing& smoothing, const Directions& gi
     return kernel.ldlt().solve(gaussians(asked, given, width).transpose()).transpose();
 }
 
+// r^2 log r of the distance (Wahba, Spline Models for Observational Data, 1990, Eq. 2.4).
+double thinPlateKernel(const glm::vec2& a, const glm::vec2& b)
+{
+    const double r2 = double{glm::dot(a - b, a - b)};
+    return r2 > 0 ? 0.5 * r2 * std::log(r2) : 0.0;
+}
+
+// Each node's kernel at a point, then 1, x and y.
+Eigen::RowVectorXd splineTerms(const std::vector<glm::vec2>& nodes, const glm::vec2& point)
+{
+    const auto n = static_cast<Eigen::Index>(nodes.size());
+    Eigen::RowVectorXd terms(n + 3);
+    for (Eigen::Index i = 0; i < n; ++i) {
+        terms(i) = thinPlateKernel(point, nodes[i]);
+    }
+    terms.tail<3>() << 1, point.x, point.y;
+    return terms;
+}
+
+// Smoothing thin-plate splines over the plane of lights, affine part free (Wahba, Eq. 2.4.24).
 Eigen::MatrixXd thinPlateWeights(double penalty, const Directions& given, const Directions& asked)
 {
-    std::vector<glm::vec2> nodes;
-    for (const glm::vec3& direction : given) {
-        nodes.push_back(lightPlanePoint(direction));
+    const std::vector<glm::vec2> nodes = lightPlanePoints(given);
+    const auto n = static_cast<Eigen::Index>(nodes.size());
+    Eigen::MatrixXd system = Eigen::MatrixXd::Zero(n + 3, n + 3);
+    for (Eigen::Index i = 0; i < n; ++i) {
+        system.row(i) = splineTerms(nodes, nodes[i]);
+        system(i, i) += penalty;
+        system.block<3, 1>(n, i) = system.block<1, 3>(i, n).transpose();
     }
-    const Eigen::MatrixXd factors = splineFactors(nodes, penalty);
-    Eigen::MatrixXd weights(static_cast<Eigen::Index>(asked.size()), factors.cols());
+    const Eigen::MatrixXd factors = system.partialPivLu().inverse().leftCols(n);
+    Eigen::MatrixXd weights(static_cast<Eigen::Index>(asked.size()), n);
     for (size_t i = 0; i < asked.size(); ++i) {
         weights.row(static_cast<Eigen::Index>(i)) = splineTerms(nodes, lightPlanePoint(asked[i])) * factors;
     }

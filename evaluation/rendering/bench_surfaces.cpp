@@ -144,9 +144,9 @@ ResidualLayer benchResidual(const Surface& surface, int components, int captured
     layer.low.assign(components, -0.02f);
     layer.high.assign(components, 0.02f);
     for (const Light& light : benchLights(captured, 0)) {
-        layer.nodes.push_back(lightPlanePoint(light.direction));
+        layer.nodes.push_back(light.direction);
     }
-    for (size_t i = 0; i < components * layer.terms(); ++i) {
+    for (size_t i = 0; i < components * layer.nodes.size(); ++i) {
         layer.weights.emplace_back(static_cast<float>(hashOf(i) % 1000) / 5000 - 0.1f);
     }
     layer.codes.resize(layer.layers() * layer.pixelCount() * kComponentsPerTexel);

@@ -95,12 +95,11 @@ ResidualLayer smoothResidual(const Surface& surface)
     layer.low.assign(kComponents, -0.12f);
     layer.high.assign(kComponents, 0.14f);
     for (const CapturedLight& light : surface.lights) {
-        layer.nodes.push_back(lightPlanePoint(light.light.direction));
+        layer.nodes.push_back(light.light.direction);
     }
-    for (size_t i = 0; i < kComponents * layer.terms(); ++i) {
+    for (size_t i = 0; i < kComponents * layer.nodes.size(); ++i) {
         const float x = 1.7f * static_cast<float>(i);
-        const bool isKernel = i % layer.terms() < layer.nodes.size();
-        layer.weights.push_back((isKernel ? 0.04f : 0.14f) * glm::vec3(std::sin(x), std::sin(x + 1), std::sin(x + 2)));
+        layer.weights.push_back(0.07f * glm::vec3(std::sin(x), std::sin(x + 1), std::sin(x + 2)));
     }
     layer.codes.resize(layer.layers() * layer.pixelCount() * kComponentsPerTexel);
     for (size_t i = 0; i < layer.codes.size(); ++i) {

@@ -31,12 +31,12 @@ inline ResidualLayer anyResidual(const Surface& surface, int components)
     layer.components = components;
     layer.trust = 0.5f;
     for (const CapturedLight& light : surface.lights) {
-        layer.nodes.push_back(lightPlanePoint(light.light.direction));
+        layer.nodes.push_back(light.light.direction);
     }
     for (int k = 0; k < components; ++k) {
         layer.low.push_back(-0.04f - 0.01f * static_cast<float>(k));
         layer.high.push_back(0.05f);
-        for (size_t i = 0; i < layer.terms(); ++i) {
+        for (size_t i = 0; i < layer.nodes.size(); ++i) {
             const float x = static_cast<float>(i) + 3 * static_cast<float>(k);
             layer.weights.emplace_back(std::sin(x), std::cos(1.7f * x), std::sin(2.3f * x + 1));
         }
