@@ -27,9 +27,9 @@ constexpr int kPolishSteps = 3;
 constexpr float kDarkRoot = 0.2f;
 constexpr float kDarkShare = 0.25f;
 
-NACRE_ON_LANES Lanes costOf(const Lanes& observed, const Lanes& residual, float truncation)
+NACRE_ON_LANES Lanes costOf(const Lanes& observed, const Lanes& residual, const Lanes& truncation)
 {
-    const Lanes most = observed < kDarkRoot ? allLanes(kDarkShare * truncation) : allLanes(truncation);
+    const Lanes most = observed < kDarkRoot ? kDarkShare * truncation : truncation;
     return residual < most ? residual : most;
 }
 
@@ -47,10 +47,11 @@ void matchRoots(const float* observed, const float* column, size_t stride, float
     }
     const float sum = sumOf(denominator);
     root = std::clamp(sum > 0 ? sumOf(numerator) / sum : root, lowRoot, highRoot);
+    const Lanes most = allLanes(truncation);
     Lanes costs = allLanes(0);
     for (size_t i = 0; i < stride; i += kLanes) {
         const Lanes g = lanesAt(observed + i);
-        costs += costOf(g, absolute(g - root * lanesAt(column + i)), truncation);
+        costs += costOf(g, absolute(g - root * lanesAt(column + i)), most);
     }
     cost = sumOf(costs);
 }
@@ -83,11 +84,11 @@ void matchGlossy(const float* observed, const float* diffuse, const float* gloss
             scale = std::clamp(scale + sumOf(numerator) / sum, std::max(low, 0.3f * scale), std::min(high, 3 * scale));
         }
     }
+    const Lanes most = allLanes(truncation);
     Lanes costs = allLanes(0);
     for (size_t i = 0; i < stride; i += kLanes) {
         const Lanes g = lanesAt(observed + i);
-        costs +=
-            costOf(g, absolute(g - rootOf(glossyPrediction(diffuse + i, gloss + i, scale, inverseBright))), truncation);
+        costs += costOf(g, absolute(g - rootOf(glossyPrediction(diffuse + i, gloss + i, scale, inverseBright))), most);
     }
     cost = sumOf(costs);
 }
@@ -170,11 +171,12 @@ NACRE_VECTOR_CLONES
 void equationsAt(const BallCell& cell, bool additive, const float* observed, size_t stride, float scale,
                  float inverseBright, float truncation, StepEquations& equations)
 {
+    const Lanes most = allLanes(truncation);
     Lanes xx = {}, xy = {}, xs = {}, yy = {}, ys = {}, ss = {}, x = {}, y = {}, s = {}, costs = {};
     for (size_t i = 0; i < stride; i += kLanes) {
         const RootLanes predicted = predictRoots(cell, additive, i, scale, inverseBright);
         const Lanes g = lanesAt(observed + i), residual = g - predicted.root, size = absolute(residual);
-        costs += costOf(g, size, truncation);
+        costs += costOf(g, size, most);
         const auto isNear = size < kFitLimit * truncation;
         const Lanes weight = isNear ? 1 - size / (kFitLimit * truncation) : allLanes(0);
         const Lanes weighted = isNear ? weight * residual : allLanes(0);

@@ -33,20 +33,20 @@ NACRE_ON_LANES Lanes absolute(const Lanes& lanes)
     return lanes < 0 ? -lanes : lanes;
 }
 
+// By halves in registers: what is written to memory by halves and read as a whole is waited for.
 NACRE_ON_LANES Lanes rootOf(const Lanes& lanes)
 {
-    Lanes result;
-    const auto* from = reinterpret_cast<const float*>(&lanes);
-    auto* to = reinterpret_cast<float*>(&result);
 #ifdef __SSE__
-    _mm_storeu_ps(to, _mm_sqrt_ps(_mm_loadu_ps(from)));
-    _mm_storeu_ps(to + 4, _mm_sqrt_ps(_mm_loadu_ps(from + 4)));
+    const __m128 low = _mm_sqrt_ps(__builtin_shufflevector(lanes, lanes, 0, 1, 2, 3)),
+                 high = _mm_sqrt_ps(__builtin_shufflevector(lanes, lanes, 4, 5, 6, 7));
+    return __builtin_shufflevector(low, high, 0, 1, 2, 3, 4, 5, 6, 7);
 #else
+    Lanes result;
     for (int k = 0; k < kLanes; ++k) {
-        to[k] = std::sqrt(from[k]);
+        result[k] = std::sqrt(lanes[k]);
     }
-#endif
     return result;
+#endif
 }
 
 // Pairwise, so that the result does not depend on how it is compiled.
