@@ -153,9 +153,11 @@ size_t rankedBest(const Bench& bench, const std::vector<NamedReflectance>& dicti
         AlbedoRange albedos;
     };
     std::vector<Ranked> ranked(dictionary.size());
+    // Known reflectances have one diffuse part.
+    const std::vector<float> shades = shadesOf(bench.searchGrid, dictionary.front().reflectance, bench.threads);
     const auto rank = [&](Ranked& entry, const AlbedoRange& given) {
-        MatchModel model = modelOf(bench.searchGrid, dictionary[entry.index].reflectance, 1);
-        model.albedos = given;
+        MatchModel model{dictionary[entry.index].reflectance, {}, given};
+        model.ball = makeReflectanceBall(bench.searchGrid, model.reflectance, shades, 1);
         entry.cost = rankCost(bench, model, entry.albedos);
     };
     const auto cheaper = [](const Ranked& a, const Ranked& b) {

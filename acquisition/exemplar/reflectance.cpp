@@ -116,6 +116,27 @@ std::array<float, kShadeKnots> shadeOfPower(float exponent)
 
 ReflectanceBall makeReflectanceBall(const BallGrid& grid, const Reflectance& reflectance, int threads)
 {
+    return makeReflectanceBall(grid, reflectance, shadesOf(grid, reflectance, threads), threads);
+}
+
+std::vector<float> shadesOf(const BallGrid& grid, const Reflectance& reflectance, int threads)
+{
+    std::vector<float> shades(grid.cosines.size(), 1.0f);
+    const auto& shade = reflectance.shade;
+    if (std::all_of(shade.begin(), shade.end(), [](float u) { return u == 0; })) {
+        return shades;
+    }
+    parallelFor(grid.normals.size(), kBallRowsPerTask, threads, [&](size_t first, size_t last) {
+        for (size_t at = first * grid.stride; at < last * grid.stride; ++at) {
+            shades[at] = grid.cosines[at] > 0 ? std::exp(reflectance.shadeAt(grid.cosines[at])) : 1.0f;
+        }
+    });
+    return shades;
+}
+
+ReflectanceBall makeReflectanceBall(const BallGrid& grid, const Reflectance& reflectance,
+                                    const std::vector<float>& shades, int threads)
+{
     ReflectanceBall ball{&grid, reflectance.additive, std::vector<float>(grid.cosines.size(), 0.0f), {}, {}, {}, {}};
     (reflectance.additive ? ball.gloss : ball.roots).resize(grid.cosines.size(), 0.0f);
     ball.bright.resize(grid.normals.size());
@@ -134,8 +155,7 @@ ReflectanceBall makeReflectanceBall(const BallGrid& grid, const Reflectance& ref
                 const float share = grid.halfBins[at] - static_cast<float>(bin);
                 const float* profile = &profiles[i * kHalfBins + bin];
                 const float lobe = (profile[0] * (1 - share) + profile[1] * share) * cosine;
-                const float shade = std::exp(reflectance.shadeAt(cosine));
-                ball.diffuse[at] = reflectance.additive ? shade * cosine : lobe * shade;
+                ball.diffuse[at] = shades[at] * (reflectance.additive ? cosine : lobe);
                 if (reflectance.additive) {
                     ball.gloss[at] = lobe;
                 } else {

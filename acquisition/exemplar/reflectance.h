@@ -46,6 +46,11 @@ struct ReflectanceBall {
 
 ReflectanceBall makeReflectanceBall(const BallGrid& grid, const Reflectance& reflectance, int threads);
 
+// [row * stride + light] e^u(n.l), which reflectances of one u share.
+std::vector<float> shadesOf(const BallGrid& grid, const Reflectance& reflectance, int threads);
+ReflectanceBall makeReflectanceBall(const BallGrid& grid, const Reflectance& reflectance,
+                                    const std::vector<float>& shades, int threads);
+
 struct NamedReflectance {
     std::string name;
     Reflectance reflectance;

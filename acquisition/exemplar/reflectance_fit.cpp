@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <utility>
 
 #include <Eigen/Dense>
@@ -10,6 +11,7 @@
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
+#include "acquisition/exemplar/value_groups.h"
 #include "engine/files/measures.h"
 #include "engine/files/parallel_for.h"
 
@@ -35,7 +37,7 @@ constexpr double kLobeStiffness = 0.3;
 constexpr int kShadeRounds = 4;
 constexpr int kFewestInAnchor = 3;
 constexpr float kLeastValue = 1e-6f;
-constexpr size_t kFittedPerTask = 64, kBinsPerTask = 4;
+constexpr size_t kFittedPerTask = 64;
 // The unit of asinh, which is linear below and logarithmic beyond: this share of the median albedo.
 constexpr float kGlossUnit = 0.1f;
 // Albedos of the well explained pixels, and what is added to them.
@@ -51,36 +53,6 @@ struct FitSample {
     float bright;
     float cosine; // and weight
 };
-
-using WeightedValues = std::vector<std::pair<float, float>>;
-
-// The least value that no less than half of the weight is at or below. By halves: the one that holds it is split on.
-float weightedMedian(WeightedValues& values)
-{
-    if (values.empty()) {
-        return 0;
-    }
-    double missing = 0;
-    for (const auto& [value, weight] : values) {
-        missing += weight / 2;
-    }
-    auto first = values.begin(), last = values.end();
-    while (last - first > 1) {
-        const auto middle = first + (last - first) / 2;
-        std::nth_element(first, middle, last);
-        double below = 0;
-        for (auto each = first; each != middle; ++each) {
-            below += each->second;
-        }
-        if (below >= missing) {
-            last = middle;
-        } else {
-            missing -= below;
-            first = middle;
-        }
-    }
-    return first->first;
-}
 
 void addSamples(const PixelLattice& lattice, const MatchModel& model, const BallMatch& match, size_t pixel,
                 std::vector<FitSample>& samples)
@@ -162,22 +134,11 @@ std::vector<float> smoothLobe(const std::vector<float>& values, const std::vecto
     return result;
 }
 
-std::vector<float> medians(std::vector<WeightedValues>& bins, int threads)
-{
-    std::vector<float> result(bins.size());
-    parallelFor(bins.size(), kBinsPerTask, threads, [&](size_t first, size_t last) {
-        for (size_t bin = first; bin < last; ++bin) {
-            result[bin] = weightedMedian(bins[bin]);
-        }
-    });
-    return result;
-}
-
-std::vector<double> binWeights(const std::vector<WeightedValues>& bins)
+std::vector<double> weightsOf(const ValueGroups& bins)
 {
     std::vector<double> weights;
-    for (const WeightedValues& bin : bins) {
-        const double count = static_cast<double>(bin.size());
+    for (size_t bin = 0; bin < bins.groupCount(); ++bin) {
+        const double count = static_cast<double>(bins.count(bin));
         weights.push_back(count / (count + kHalfCounted));
     }
     return weights;
@@ -189,13 +150,12 @@ bool isDiffuse(int bin)
 }
 
 // u from the residuals of its knots, 0 at n.l = 0.8; answers what was there.
-float fitShade(std::vector<WeightedValues>& knots, int threads, Reflectance& reflectance)
+float fitShade(const ValueGroups& knots, const std::vector<float>& levels, Reflectance& reflectance)
 {
-    const std::vector<float> levels = medians(knots, threads);
     Eigen::Matrix<double, kShadeKnots, kShadeKnots> matrix = Eigen::Matrix<double, kShadeKnots, kShadeKnots>::Zero();
     Eigen::Matrix<double, kShadeKnots, 1> right = Eigen::Matrix<double, kShadeKnots, 1>::Zero();
     for (int k = 0; k < kShadeKnots; ++k) {
-        const double count = static_cast<double>(knots[k].size());
+        const double count = static_cast<double>(knots.count(k));
         const double weight = count / (count + kHalfCountedShade) + 1e-4;
         matrix(k, k) += weight;
         right[k] += weight * levels[k];
@@ -221,47 +181,68 @@ int knotOf(float cosine)
     return static_cast<int>(std::lround(std::clamp(cosine, 0.0f, 1.0f) * (kShadeKnots - 1)));
 }
 
+// The samples by what is asked of each: its group, -1 for none, or its value.
+ValueGroups grouped(const std::vector<FitSample>& samples, size_t groupCount,
+                    const std::function<int(const FitSample&)>& groupOf)
+{
+    std::vector<int> groups;
+    std::vector<float> weights;
+    for (const FitSample& sample : samples) {
+        groups.push_back(groupOf(sample));
+        weights.push_back(sample.cosine);
+    }
+    return {groups, weights, groupCount};
+}
+
+ValueGroups binned(const std::vector<FitSample>& samples)
+{
+    return grouped(samples, kLobeTexels, [](const FitSample& sample) { return sample.bin; });
+}
+
+template <class ValueOf> std::vector<float> valuesOf(const std::vector<FitSample>& samples, const ValueOf& valueOf)
+{
+    std::vector<float> values;
+    for (const FitSample& sample : samples) {
+        values.push_back(valueOf(sample));
+    }
+    return values;
+}
+
 // log of what the diffuse part of albedo 1 is at n.l = 0.8.
 float fitDiffuse(const std::vector<FitSample>& samples, int threads, Reflectance& reflectance)
 {
-    std::vector<WeightedValues> knots(kShadeKnots);
-    for (const FitSample& sample : samples) {
-        if (isDiffuse(sample.bin)) {
-            knots[knotOf(sample.cosine)].push_back({sample.logOverAlbedo, sample.cosine});
-        }
-    }
-    return fitShade(knots, threads, reflectance);
-}
-
-std::vector<WeightedValues> binned(const std::vector<FitSample>& samples, const Reflectance& reflectance)
-{
-    std::vector<WeightedValues> bins(kLobeTexels);
-    for (const FitSample& sample : samples) {
-        bins[sample.bin].push_back({sample.logOverAlbedo - reflectance.shadeAt(sample.cosine), sample.cosine});
-    }
-    return bins;
+    const ValueGroups knots = grouped(samples, kShadeKnots, [](const FitSample& sample) {
+        return isDiffuse(sample.bin) ? knotOf(sample.cosine) : -1;
+    });
+    const std::vector<float> logs = valuesOf(samples, [](const FitSample& sample) { return sample.logOverAlbedo; });
+    return fitShade(knots, knots.medians(logs, threads), reflectance);
 }
 
 // T and u in turn; answers log of what T was at its anchor.
 float fitMultiplicative(const std::vector<FitSample>& samples, int threads, Reflectance& reflectance)
 {
+    const ValueGroups bins = binned(samples);
+    const ValueGroups knots = grouped(samples, kShadeKnots, [&](const FitSample& sample) {
+        return bins.count(sample.bin) >= static_cast<size_t>(kHalfCounted) ? knotOf(sample.cosine) : -1;
+    });
+    const auto lobeNow = [&] {
+        return bins.medians(valuesOf(samples,
+                                     [&](const FitSample& sample) {
+                                         return sample.logOverAlbedo - reflectance.shadeAt(sample.cosine);
+                                     }),
+                            threads);
+    };
     for (int round = 0; round < kShadeRounds; ++round) {
-        std::vector<WeightedValues> bins = binned(samples, reflectance);
-        const std::vector<float> lobe = medians(bins, threads);
-        std::vector<WeightedValues> knots(kShadeKnots);
-        for (const FitSample& sample : samples) {
-            if (bins[sample.bin].size() >= static_cast<size_t>(kHalfCounted)) {
-                knots[knotOf(sample.cosine)].push_back({sample.logOverAlbedo - lobe[sample.bin], sample.cosine});
-            }
-        }
-        fitShade(knots, threads, reflectance);
+        const std::vector<float> lobe = lobeNow();
+        const std::vector<float> shades =
+            valuesOf(samples, [&](const FitSample& sample) { return sample.logOverAlbedo - lobe[sample.bin]; });
+        fitShade(knots, knots.medians(shades, threads), reflectance);
     }
-    std::vector<WeightedValues> bins = binned(samples, reflectance);
-    const std::vector<float> lobe = smoothLobe(medians(bins, threads), binWeights(bins));
+    const std::vector<float> lobe = smoothLobe(lobeNow(), weightsOf(bins));
     std::vector<float> inAnchor, everywhere;
     for (int bin = 0; bin < kLobeTexels; ++bin) {
         const float thetaH = glm::degrees(thetaHOfBin(bin / kDifferenceBins));
-        if (bins[bin].size() >= kFewestInAnchor) {
+        if (bins.count(bin) >= kFewestInAnchor) {
             everywhere.push_back(lobe[bin]);
             if (thetaH >= kAnchorFrom && thetaH <= kAnchorTo) {
                 inAnchor.push_back(lobe[bin]);
@@ -278,12 +259,12 @@ float fitMultiplicative(const std::vector<FitSample>& samples, int threads, Refl
 
 void fitGloss(const std::vector<FitSample>& samples, float albedo, float unit, int threads, Reflectance& reflectance)
 {
-    std::vector<WeightedValues> bins(kLobeTexels);
-    for (const FitSample& sample : samples) {
+    const ValueGroups bins = binned(samples);
+    const std::vector<float> rest = valuesOf(samples, [&](const FitSample& sample) {
         const float matte = sample.scale * albedo * std::exp(reflectance.shadeAt(sample.cosine));
-        bins[sample.bin].push_back({std::asinh((sample.value - matte) * sample.bright / unit), sample.cosine});
-    }
-    const std::vector<float> gloss = smoothLobe(medians(bins, threads), binWeights(bins));
+        return std::asinh((sample.value - matte) * sample.bright / unit);
+    });
+    const std::vector<float> gloss = smoothLobe(bins.medians(rest, threads), weightsOf(bins));
     for (int bin = 0; bin < kLobeTexels; ++bin) {
         reflectance.lobe[bin] = std::sinh(gloss[bin]) * unit;
     }
