@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include <glm/geometric.hpp>
 
+#include "acquisition/brdf/light_slices.h"
 #include "engine/files/parallel_for.h"
 
 namespace nacre {
@@ -31,19 +33,39 @@ struct PixelPrediction {
     float limit = 0; // of a miss
 };
 
+// Answers what a normal shows under each of a pixel's lights: f.
+using TableUnderLights =
+    std::function<void(const glm::vec3& normal, std::span<const Light> lights, std::span<glm::vec3> values)>;
+
+TableUnderLights tableUnder(const LocalLights& lights, const BrdfTable& table)
+{
+    if (lights.areDistant() && table.domain.coordinates == kHalfDifference) {
+        return [slices = LightSlices(table, lights.reference())](const glm::vec3& normal, std::span<const Light>,
+                                                                 std::span<glm::vec3> values) {
+            slices.evaluate(normal, values);
+        };
+    }
+    return [&table](const glm::vec3& normal, std::span<const Light> own, std::span<glm::vec3> values) {
+        for (size_t i = 0; i < own.size(); ++i) {
+            values[i] = evaluateTable(table, normal, own[i].direction, {0, 0, 1}).value;
+        }
+    };
+}
+
 bool predictPixel(const Observations& block, size_t p, const glm::vec3& normal, std::span<const Light> lights,
-                  const BrdfTable& table, PixelPrediction& pixel)
+                  const TableUnderLights& table, PixelPrediction& pixel)
 {
     pixel.observed.clear();
-    pixel.predicted.clear();
+    pixel.predicted.resize(lights.size());
+    table(normal, lights, pixel.predicted);
     std::vector<float> greys;
     for (size_t i = 0; i < lights.size(); ++i) {
         const float nDotL = glm::dot(normal, lights[i].direction);
         const glm::vec3 observed = block.radianceOf(p)[i] / lights[i].irradiance;
         greys.push_back(greyOf(observed));
         if (nDotL > 0 && !block.saturatedOf(p)[i]) {
+            pixel.predicted[pixel.observed.size()] = pixel.predicted[i] * nDotL;
             pixel.observed.push_back(observed);
-            pixel.predicted.push_back(evaluateTable(table, normal, lights[i].direction, {0, 0, 1}).value * nDotL);
         }
     }
     pixel.limit = kRefitLimit * brightLevel(greys);
@@ -86,6 +108,7 @@ std::vector<glm::vec3> albedoFactors(const Observations& block, const NormalBloc
 void refitAlbedo(const Observations& block, const NormalMap& normals, const LocalLights& lights, const BrdfTable& table,
                  int threads, Image& albedo)
 {
+    const TableUnderLights under = tableUnder(lights, table);
     parallelFor(block.pixels.size(), 64, threads, [&](size_t first, size_t last) {
         PixelPrediction pixel;
         std::vector<Light> own;
@@ -95,7 +118,7 @@ void refitAlbedo(const Observations& block, const NormalMap& normals, const Loca
             const glm::vec3 factor = albedo.rgb(x, y);
             const bool known = normals.confidence[at] > 0 && factor != glm::vec3(0);
             if (known &&
-                predictPixel(block, p, lights.toLocal(at, normals.normals[at]), lights.of(at, own), table, pixel)) {
+                predictPixel(block, p, lights.toLocal(at, normals.normals[at]), lights.of(at, own), under, pixel)) {
                 albedo.setRgb(x, y, refittedFactor(pixel, factor));
             }
         }

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "engine/files/parallel_for.h"
 #include "engine/files/strict_json.h"
 #include "engine/files/whole_file.h"
 #include "engine/surface/surface.h"
@@ -193,7 +194,8 @@ size_t codeIndex(const ResidualLayer& layer, int component, size_t pixel)
 nlohmann::json saveResidual(const fs::path& folder, const ResidualLayer& layer)
 {
     Image weights(static_cast<int>(layer.nodes.size()), layer.components, 3);
-    for (int k = 0; k < layer.components; ++k) {
+    parallelFor(layer.components, 1, 0, [&](size_t first, size_t) {
+        const int k = static_cast<int>(first);
         Image picture(layer.width, layer.height, 1);
         for (size_t i = 0; i < layer.pixelCount(); ++i) {
             picture.values[i] = layer.codes[codeIndex(layer, k, i)] / 255.0f;
@@ -202,7 +204,7 @@ nlohmann::json saveResidual(const fs::path& folder, const ResidualLayer& layer)
         for (size_t i = 0; i < layer.nodes.size(); ++i) {
             weights.setRgb(static_cast<int>(i), k, layer.weights[k * layer.nodes.size() + i]);
         }
-    }
+    });
     saveImage(folder / kWeightFile, weights, PixelType::float32);
     return {{"trust", layer.trust}, {"low", layer.low}, {"high", layer.high}};
 }
