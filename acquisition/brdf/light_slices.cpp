@@ -65,7 +65,7 @@ LightSlices::LightSlices(const BrdfTable& table, std::span<const Light> lights)
         const glm::vec3 sum = lights[i].direction + kTowardsCamera, difference = lights[i].direction - kTowardsCamera;
         const glm::vec3 h = glm::normalize(sum);
         const float apart = glm::length(difference);
-        const glm::vec3 t = apart > 0 ? difference / apart : glm::vec3(0), b = glm::cross(h, t);
+        const glm::vec3 t = apart > 0 ? difference / apart : anyPerpendicular(h), b = glm::cross(h, t);
         for (int c = 0; c < 3; ++c) {
             axes_[c][i] = t[c];
             axes_[3 + c][i] = b[c];
@@ -74,7 +74,8 @@ LightSlices::LightSlices(const BrdfTable& table, std::span<const Light> lights)
         const float place = std::clamp(std::atan2(apart, glm::length(sum)) / table.domain.thetaDMax, 0.0f, 1.0f) *
                             static_cast<float>(table.size.y - 1);
         const int low = static_cast<int>(place), high = std::min(low + 1, table.size.y - 1);
-        for (int k = 0; k < size_.y; ++k) {
+        for (int azimuth = 0; azimuth < size_.y; ++azimuth) {
+            const int k = apart > 0 ? azimuth : 0; // where phiD is not defined, it is 0
             for (int half = 0; half < size_.x; ++half) {
                 slices_.push_back(glm::mix(table.values[table.index(half, low, k)],
                                            table.values[table.index(half, high, k)], place - static_cast<float>(low)));
