@@ -32,6 +32,7 @@ ChosenMethod chooseMethod(const CaptureSample& sample, const CheckedSample& chec
     chosen.estimators = {
         makeNormalEstimator(intensitiesOf(sample.seen, sample.lights), sample.lights, options, report)};
     chosen.method = report.method;
+    chosen.methods = {report.method};
     chosen.heldOutError = report.heldOutError;
     chosen.findings = std::move(report.findings);
     append(chosen.findings, methodWarnings(checked, chosen.method, chosen.estimators.front()));
@@ -54,6 +55,7 @@ ChosenMethod chooseMethod(const CaptureSample& sample, const CheckedSample& chec
         NormalReport report;
         chosen.estimators.push_back(
             makeNormalEstimator(intensitiesOf(own, sample.lights), sample.lights, options, report));
+        chosen.methods.push_back(report.method);
         for (const Finding& finding : report.findings) {
             chosen.findings.push_back({finding.code, fmt::format("{}: {}", regions[m].name, finding.text)});
         }

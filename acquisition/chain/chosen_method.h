@@ -13,6 +13,7 @@ namespace nacre {
 struct ChosenMethod {
     NormalMethod method = NormalMethod::consensus; // of the material with most pixels
     std::vector<NormalEstimator> estimators;       // one a material, or one for all
+    std::vector<NormalMethod> methods;             // of each
     std::vector<Finding> findings;
     double heldOutError = 0;       // NormalReport's, of an object of one material
     std::optional<SelfLight> self; // what the object throws on itself; to be taken out of every block first

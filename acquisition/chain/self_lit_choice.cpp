@@ -1,6 +1,7 @@
 #include "acquisition/chain/self_lit_choice.h"
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
 #include <fmt/format.h>
@@ -35,6 +36,26 @@ Finding describeSelfLight(const SelfLight& self)
                     100 * self.largestShare, 100 * self.explained)};
 }
 
+// Exemplars that won with both lights stay: they know Lambert's law, too, and their reflectance alone is found anew.
+ChosenMethod chosenAnew(const ChosenMethod& before, const CaptureSample& direct, const CheckedSample& checked,
+                        const Segmentation& materials, NormalOptions options)
+{
+    if (std::any_of(before.methods.begin(), before.methods.end(),
+                    [](NormalMethod method) { return method != NormalMethod::exemplar; })) {
+        return chooseMethod(direct, checked, materials, options);
+    }
+    options.method = NormalMethod::exemplar;
+    ChosenMethod chosen = chooseMethod(direct, checked, materials, options);
+    std::vector<Finding> findings;
+    std::copy_if(before.findings.begin(), before.findings.end(), std::back_inserter(findings), [](const Finding& f) {
+        return f.code == FindingCode::methodChosen || f.code == FindingCode::noMethod;
+    });
+    append(findings, chosen.findings);
+    chosen.findings = std::move(findings);
+    chosen.heldOutError = before.heldOutError;
+    return chosen;
+}
+
 } // namespace
 
 ChosenMethod chooseMethod(const PreparedCapture& prepared, const Segmentation& materials, const AcquireOptions& options)
@@ -54,7 +75,7 @@ ChosenMethod chooseMethod(const PreparedCapture& prepared, const Segmentation& m
     }
     CaptureSample direct = sample;
     direct.seen = withoutSelfLight(*self, sample.seen, sample.lights, options.normals.threads);
-    chosen = chooseMethod(direct, prepared.checked, materials, options.normals);
+    chosen = chosenAnew(chosen, direct, prepared.checked, materials, options.normals);
     chosen.findings.push_back(describeSelfLight(*self));
     chosen.self = std::move(self);
     return chosen;
