@@ -19,7 +19,9 @@ struct PixelSearch {
     const MatchModel& model;
     const PixelLattice& lattice;
     size_t pixel;
-    BallMatch best;
+    BallMatch best{};
+    bool triesOnce = false; // no row twice, whatever the scale that it would be tried from
+    std::vector<int> tried{};
 
     void start(const BallMatch& match)
     {
@@ -50,8 +52,11 @@ struct PixelSearch {
     void consider(const glm::vec2& texel, float scale)
     {
         const int row = model.ball.grid->rowAt(texel);
-        if (row < 0 || row == best.row) {
+        if (row < 0 || row == best.row || std::find(tried.begin(), tried.end(), row) != tried.end()) {
             return;
+        }
+        if (triesOnce) {
+            tried.push_back(row);
         }
         BallMatch match = matchAtRow(model, lattice, pixel, row, scale);
         if (match.cost < best.cost) {
@@ -93,7 +98,7 @@ void sweepMatches(const MatchModel& model, const PixelLattice& lattice, const st
             for (size_t p = first; p < last; ++p) {
                 const uint32_t place = lattice.places[p];
                 if ((place % width + place / width) % 2 == colour) {
-                    PixelSearch search{model, lattice, p, {}};
+                    PixelSearch search{model, lattice, p};
                     search.start(matches[p]);
                     searchPixel(search, matches, steps, extra);
                     matches[p] = search.best;
@@ -106,7 +111,9 @@ void sweepMatches(const MatchModel& model, const PixelLattice& lattice, const st
 BallMatch bestMatch(const MatchModel& model, const PixelLattice& lattice, size_t pixel,
                     std::span<const BallMatch> candidates, const std::vector<int>& steps)
 {
-    PixelSearch search{model, lattice, pixel, {}};
+    PixelSearch search{model, lattice, pixel};
+    search.triesOnce = true;
+    search.tried.reserve(candidates.size() + kBeside.size() * steps.size());
     search.start(candidates.front());
     for (const BallMatch& candidate : candidates.subspan(1)) {
         search.consider(candidate.texel, candidate.scale);

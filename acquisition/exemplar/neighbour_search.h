@@ -16,7 +16,7 @@ namespace nacre {
 void sweepMatches(const MatchModel& model, const PixelLattice& lattice, const std::vector<int>& steps,
                   std::span<const glm::vec2> extra, int threads, std::vector<BallMatch>& matches);
 
-// The best of the candidates and of steps from it, polished.
+// The best of the candidates and of steps from it, polished. No row of the ball is tried twice.
 BallMatch bestMatch(const MatchModel& model, const PixelLattice& lattice, size_t pixel,
                     std::span<const BallMatch> candidates, const std::vector<int>& steps);
 
