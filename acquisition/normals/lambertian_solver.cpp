@@ -76,6 +76,29 @@ WeightedSums weightedSums(const float* x, const float* y, const float* z, const 
     return sums;
 }
 
+// Sum of w (I - l.g)^2 over the observations whose weight w is above 0.
+NACRE_VECTOR_CLONES
+float weightedSquares(const float* const directions[3], const glm::vec3& g, const float* intensities,
+                      const float* weights, size_t count)
+{
+    const size_t whole = count / kLanes * kLanes;
+    Lanes squares = {};
+    for (size_t i = 0; i < whole; i += kLanes) {
+        const Lanes w = lanesAt(weights + i);
+        const Lanes missed =
+            lanesAt(intensities + i) -
+            (g.x * lanesAt(directions[0] + i) + g.y * lanesAt(directions[1] + i) + g.z * lanesAt(directions[2] + i));
+        squares += w > 0 ? w * missed * missed : allLanes(0);
+    }
+    float sum = sumOf(squares);
+    for (size_t i = whole; i < count; ++i) {
+        const float missed =
+            intensities[i] - (g.x * directions[0][i] + g.y * directions[1][i] + g.z * directions[2][i]);
+        sum += weights[i] > 0 ? weights[i] * missed * missed : 0.0f;
+    }
+    return sum;
+}
+
 PixelNormal normalOf(const Eigen::Vector3d& rhoN, size_t used)
 {
     PixelNormal result;
@@ -160,13 +183,8 @@ PixelNormal LambertianSolver::solve(std::span<const float> intensities, std::spa
     const Eigen::Vector3d rhoN = inverse * sums.right;
     PixelNormal pixel = normalOf(rhoN, sums.used);
     const glm::vec3 g(rhoN.x(), rhoN.y(), rhoN.z());
-    double squares = 0;
-    for (size_t i = 0; i < intensities.size(); ++i) {
-        if (weights[i] > 0) {
-            const double r = intensities[i] - glm::dot(g, directions_[i]);
-            squares += weights[i] * r * r;
-        }
-    }
+    const float* const directions[] = {x_.data(), y_.data(), z_.data()};
+    const double squares = weightedSquares(directions, g, intensities.data(), weights.data(), intensities.size());
     const double used = static_cast<double>(sums.used), freedom = std::max(1.0, used - 3) * sums.total / used;
     pixel.confidence *= confidenceOf(normalUncertainty(static_cast<float>(std::sqrt(squares / freedom)), pixel.albedo,
                                                        static_cast<float>(inverse.trace())));
