@@ -8,11 +8,10 @@
 #include <fmt/format.h>
 #include <glm/common.hpp>
 #include <glm/exponential.hpp>
-#include <glm/geometric.hpp>
 
+#include "acquisition/checks/ratio_response.h"
 #include "acquisition/lights/lights.h"
 #include "engine/files/measures.h"
-#include "engine/files/parallel_for.h"
 
 namespace nacre {
 
@@ -29,14 +28,6 @@ constexpr double kJumps = 0.01;
 constexpr int kIdleSteps = 5;
 // Medians over thousands of pixels do not need each pixel's best triple.
 constexpr size_t kTriples = 100;
-// Pixels that a light grazes say little of its strength.
-constexpr float kLeastRefinedCosine = 0.3f;
-constexpr size_t kFewestPixels = 20;
-constexpr size_t kSummedPerTask = 512;
-// Pixels, evenly spread, that tell how ratios answer to errors.
-constexpr size_t kMostInResponse = 1000;
-// Pixels whose lights left lie in one plane tell nothing: least over largest squared singular value.
-constexpr double kLeastGramShare = 1e-4;
 // With fewer lights a pixel's normal follows whatever a photograph claims.
 constexpr size_t kFewestLights = 6;
 // Of ratios, as an estimate of how far equal lights differ: 1 %, which few photographs are better than.
@@ -48,92 +39,6 @@ constexpr double kWorstTellingCondition = 5;
 // not Lambert makes ratios scatter, too.
 constexpr float kLeastDeviation = 0.095f; // 10 %
 constexpr float kDeviationSigmas = 5;
-
-// Observation over prediction per channel: the prediction is the pixel's own albedo in the channel times n.l.
-struct ChannelRatios {
-    std::vector<float> values[3];
-    std::vector<float> grey;
-
-    void add(const glm::vec3& ratio, float greyRatio)
-    {
-        for (int c = 0; c < 3; ++c) {
-            if (std::isfinite(ratio[c])) {
-                values[c].push_back(ratio[c]);
-            }
-        }
-        if (std::isfinite(greyRatio)) {
-            grey.push_back(greyRatio);
-        }
-    }
-};
-
-// Of the pixels that face one photograph's light.
-struct FacingRatios {
-    ChannelRatios lit, shadowed;
-
-    float litShare() const
-    {
-        return static_cast<float>(lit.grey.size()) / std::max<size_t>(1, lit.grey.size() + shadowed.grey.size());
-    }
-    // A photograph that is dark nearly everywhere may be merely dim: its dark pixels then agree on a ratio.
-    ChannelRatios& telling() { return litShare() < kLeastLitShare ? shadowed : lit; }
-};
-
-// Of the used observations I of a pixel: sums of n.l I and of the squares of n.l, which its albedos follow from.
-struct UsedSums {
-    glm::vec3 products{0};
-    float squares = 0;
-};
-
-UsedSums usedSums(const Observations& sample, const NormalBlock& normals, const std::vector<Light>& lights,
-                  size_t pixel)
-{
-    UsedSums sums;
-    const auto radiance = sample.radianceOf(pixel);
-    for (size_t i = 0; i < lights.size(); ++i) {
-        const float nDotL = glm::dot(normals.pixels[pixel].normal, lights[i].direction);
-        if (normals.verdicts[pixel * lights.size() + i] == Verdict::used && nDotL > 0) {
-            sums.products += nDotL * radiance[i] / lights[i].irradiance;
-            sums.squares += nDotL * nDotL;
-        }
-    }
-    return sums;
-}
-
-FacingRatios facingRatios(const Observations& sample, const NormalBlock& normals, const std::vector<UsedSums>& sums,
-                          const Light& light, size_t index)
-{
-    FacingRatios ratios;
-    for (size_t p = 0; p < sample.pixels.size(); ++p) {
-        const float nDotL = glm::dot(normals.pixels[p].normal, light.direction);
-        const Verdict verdict = normals.verdicts[p * sample.lightCount + index];
-        if (sums[p].squares > 0 && nDotL >= kLeastRefinedCosine && verdict != Verdict::saturated) {
-            const glm::vec3 seen = sample.radianceOf(p)[index] / light.irradiance, &products = sums[p].products;
-            (verdict == Verdict::shadow ? ratios.shadowed : ratios.lit)
-                .add(seen * sums[p].squares / (products * nDotL),
-                     greyOf(seen) * sums[p].squares / (greyOf(products) * nDotL));
-        }
-    }
-    return ratios;
-}
-
-std::vector<FacingRatios> gatherRatios(const Observations& sample, const NormalBlock& normals,
-                                       const std::vector<Light>& lights, int threads)
-{
-    std::vector<UsedSums> sums(sample.pixels.size());
-    parallelFor(sums.size(), kSummedPerTask, threads, [&](size_t first, size_t last) {
-        for (size_t p = first; p < last; ++p) {
-            sums[p] = usedSums(sample, normals, lights, p);
-        }
-    });
-    std::vector<FacingRatios> ratios(lights.size());
-    parallelFor(lights.size(), 1, threads, [&](size_t first, size_t last) {
-        for (size_t i = first; i < last; ++i) {
-            ratios[i] = facingRatios(sample, normals, sums, lights[i], i);
-        }
-    });
-    return ratios;
-}
 
 // One factor for all lights is not known: the median light keeps its irradiance.
 void fixScale(std::vector<glm::vec3>& ratios)
@@ -168,33 +73,6 @@ float largestGrey(const std::vector<glm::vec3>& ratios)
     return largest;
 }
 
-// Robust relative standard deviation of one photograph's ratios.
-PhotographScatter scatterOf(FacingRatios& ratios)
-{
-    PhotographScatter scatter;
-    scatter.litShare = ratios.litShare();
-    std::vector<float>& grey = ratios.lit.grey;
-    if (grey.size() >= kFewestPixels) {
-        const float median = quantile(grey, 0.5);
-        for (float& value : grey) {
-            value = std::abs(value / median - 1);
-        }
-        scatter.spread = 1.4826f * quantile(grey, 0.5);
-    }
-    return scatter;
-}
-
-std::vector<PhotographScatter> scattersOf(std::vector<FacingRatios>& gathered, int threads)
-{
-    std::vector<PhotographScatter> scatters(gathered.size());
-    parallelFor(gathered.size(), 1, threads, [&](size_t first, size_t last) {
-        for (size_t i = first; i < last; ++i) {
-            scatters[i] = scatterOf(gathered[i]);
-        }
-    });
-    return scatters;
-}
-
 float spreadOf(const std::vector<glm::vec3>& ratios)
 {
     std::vector<float> deviations;
@@ -218,115 +96,6 @@ float steepestStep(const std::vector<glm::vec3>& from, const std::vector<glm::ve
         steepest = std::max({steepest, step.x, step.y, step.z});
     }
     return steepest;
-}
-
-// How the median ratios answer to small logarithmic errors x of the irradiances: log ratios = M x. Each pixel's normal
-// takes up what of x is linear in its lights, so M is the mean over the pixels of I - P, P the projector onto their
-// directions, weighted by squared cosines.
-Eigen::MatrixXd responseOf(const NormalBlock& normals, const std::vector<Light>& lights)
-{
-    const Eigen::Index n = static_cast<Eigen::Index>(lights.size());
-    const std::vector<size_t> pixels = spreadPixels(normals.pixels.size(), kMostInResponse);
-    Eigen::VectorXd weights = Eigen::VectorXd::Zero(n);
-    // P = taken * taken^T
-    Eigen::MatrixXd taken = Eigen::MatrixXd::Zero(n, 3 * static_cast<Eigen::Index>(pixels.size()));
-    Eigen::MatrixX3d rows(n, 3);
-    for (Eigen::Index k = 0; k < static_cast<Eigen::Index>(pixels.size()); ++k) {
-        const size_t p = pixels[k];
-        Eigen::Matrix3d gram = Eigen::Matrix3d::Zero();
-        rows.setZero();
-        for (Eigen::Index i = 0; i < n; ++i) {
-            const glm::vec3& l = lights[i].direction;
-            const double cosine = glm::dot(normals.pixels[p].normal, l);
-            const Verdict verdict = normals.verdicts[p * lights.size() + i];
-            if (cosine > 0 && verdict != Verdict::shadow && verdict != Verdict::saturated) {
-                weights(i) += cosine * cosine;
-            }
-            if (cosine > 0 && verdict == Verdict::used) {
-                const Eigen::RowVector3d direction(l.x, l.y, l.z);
-                gram += direction.transpose() * direction;
-                rows.row(i) = cosine * direction;
-            }
-        }
-        const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(gram);
-        if (solver.eigenvalues()(0) > kLeastGramShare * solver.eigenvalues()(2)) {
-            taken.middleCols<3>(3 * k) = rows * solver.operatorInverseSqrt();
-        }
-    }
-    Eigen::MatrixXd response = -taken * taken.transpose();
-    response.diagonal() += weights;
-    for (Eigen::Index i = 0; i < n; ++i) {
-        if (weights(i) > 0) {
-            response.row(i) /= weights(i);
-        } else {
-            response(i, i) = 1; // it turns no normal
-        }
-    }
-    return response;
-}
-
-// Of the free photographs that show enough: median ratios, logarithms of grey and the colour beside it.
-struct MedianRatios {
-    std::vector<Eigen::Index> photographs;
-    Eigen::VectorXd logs;
-    std::vector<glm::vec3> colours;
-};
-
-// Of one photograph; grey is 0 where too few pixels tell.
-struct MedianRatio {
-    float grey = 0;
-    glm::vec3 colour{1};
-};
-
-MedianRatio medianOf(FacingRatios& gathered)
-{
-    ChannelRatios& ratios = gathered.telling();
-    MedianRatio median;
-    if (ratios.grey.size() < kFewestPixels) {
-        return median;
-    }
-    median.grey = quantile(ratios.grey, 0.5);
-    for (int c = 0; c < 3; ++c) {
-        std::vector<float>& values = ratios.values[c];
-        const float ratio = values.size() >= kFewestPixels ? quantile(values, 0.5) : median.grey;
-        median.colour[c] = ratio > 0 ? ratio / median.grey : 1.0f;
-    }
-    return median;
-}
-
-MedianRatios mediansOf(std::vector<FacingRatios>& gathered, const std::vector<bool>& isFree, int threads)
-{
-    std::vector<MedianRatio> all(gathered.size());
-    parallelFor(gathered.size(), 1, threads, [&](size_t first, size_t last) {
-        for (size_t i = first; i < last; ++i) {
-            all[i] = isFree[i] ? medianOf(gathered[i]) : MedianRatio{};
-        }
-    });
-    MedianRatios medians;
-    std::vector<double> logs;
-    for (size_t i = 0; i < all.size(); ++i) {
-        if (all[i].grey > 0) {
-            medians.photographs.push_back(static_cast<Eigen::Index>(i));
-            medians.colours.push_back(all[i].colour);
-            logs.push_back(std::log(all[i].grey));
-        }
-    }
-    medians.logs = Eigen::Map<const Eigen::VectorXd>(logs.data(), static_cast<Eigen::Index>(logs.size()));
-    return medians;
-}
-
-// Newton's step of the log ratios x to where the medians equal prior * x, which they miss. It is held back while they
-// are large, as M holds for small ones alone.
-Eigen::VectorXd newtonStep(const MedianRatios& medians, const Eigen::VectorXd& missed, const Eigen::MatrixXd& all,
-                           double prior, bool fixesScale)
-{
-    Eigen::MatrixXd response = all(medians.photographs, medians.photographs);
-    const double count = static_cast<double>(medians.logs.size());
-    response.diagonal().array() += prior + medians.logs.norm() / std::sqrt(count);
-    if (fixesScale) {
-        response.array() += 1 / count; // of the common factor, which no ratio tells
-    }
-    return response.partialPivLu().solve(missed);
 }
 
 Eigen::VectorXd logarithmsOf(const std::vector<glm::vec3>& ratios)
@@ -430,7 +199,7 @@ PhotographRatios refineRatios(const Observations& sample, const std::vector<Ligh
 
 bool canCompare(const Observations& sample)
 {
-    return sample.lightCount >= kFewestLights && sample.pixels.size() >= kFewestPixels;
+    return sample.lightCount >= kFewestLights && sample.pixels.size() >= kFewestRatioPixels;
 }
 
 std::vector<Finding> correctIntensities(const PhotographRatios& found, const std::vector<std::string>& names,

@@ -3,19 +3,9 @@
 #include <vector>
 
 #include "acquisition/capture/finding.h"
-#include "acquisition/capture/observations.h"
-#include "acquisition/normals/normals.h"
+#include "acquisition/checks/facing_ratios.h"
 
 namespace nacre {
-
-// A photograph is dark where less than this share of what faces its light is lit: cast shadows leave more.
-constexpr float kLeastLitShare = 0.1f;
-
-// How far a photograph's pixels are from agreeing on one ratio.
-struct PhotographScatter {
-    float spread = 0;   // robust standard deviation of observation over prediction, relative to its median
-    float litShare = 0; // of the pixels that face the light
-};
 
 // How each photograph stands to the others: the median over its lit pixels of observation to prediction, per channel.
 struct PhotographRatios {
