@@ -6,7 +6,8 @@
 namespace nacre {
 
 // The method for a prepared capture. Where its normals show that the object throws light on itself, this is taken out
-// of the sample, and the method chosen anew: what was made of both lights would make up for one that is gone.
+// of the sample, and the object's reflectance found anew: what was made of both lights would make up for one that is
+// gone. The method is chosen anew, too, unless it was exemplar.
 ChosenMethod chooseMethod(const PreparedCapture& prepared, const Segmentation& materials,
                           const AcquireOptions& options);
 
