@@ -12,6 +12,7 @@ namespace {
 
 // Of the full table's texels along each axis: a table of a thousand pixels' samples is asked a thousand times.
 constexpr int kCoarser = 2;
+constexpr double kMostSamples = 40'000; // of f, as many as say the same of a table so coarse
 
 void hideLights(std::span<const size_t> without, Observations& sample)
 {
@@ -51,11 +52,12 @@ std::vector<BrdfSamples> samplesOf(const Measurement& measurement, const Observa
     const auto label = [&](uint32_t pixel) -> size_t {
         return segmentation.inner[pixel] ? segmentation.labels[pixel] : kUnlabelled;
     };
+    const auto observations = static_cast<double>(sample.pixels.size() * sample.lightCount);
     forEachMaterial(sample, normals, factors, samples.size(), label, [&](size_t material, const BlockPart& part) {
         SampleCounts counts;
         samples[material].domain = tableDomain(lights.reference(), measurement.options.bake);
-        gatherSamples(part.seen, part.normals, part.albedo, lights, 1, measurement.options.samples, samples[material],
-                      counts);
+        gatherSamples(part.seen, part.normals, part.albedo, lights, kMostSamples / observations,
+                      measurement.options.samples, samples[material], counts);
     });
     return samples;
 }

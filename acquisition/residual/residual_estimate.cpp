@@ -152,13 +152,13 @@ std::vector<size_t> allPlaces(const Observations& sample)
     return places;
 }
 
-constexpr size_t kMostFolds =
-    12; // of few lights each is left out alone; of many, one more or less is nothing to the BRDF
+constexpr size_t kFewLights = 12; // each of which is left out alone
+constexpr size_t kFolds = 6;      // of more lights: without a sixth of them BRDF and normals are nearly the same
 
 // Pixels that cannot be measured without some lights keep what the whole surface says of them.
 UnseenRows unseenRows(const Observations& sample, const ResidualRows& rows, const Remeasure& remeasure)
 {
-    const size_t lights = sample.lightCount, folds = std::min(lights, kMostFolds);
+    const size_t lights = sample.lightCount, folds = lights <= kFewLights ? lights : kFolds;
     UnseenRows unseen;
     for (size_t fold = 0; fold < folds; ++fold) {
         std::vector<size_t> without;
