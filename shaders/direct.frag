@@ -7,6 +7,7 @@
 #extension GL_EXT_control_flow_attributes : require
 #include "shared/ball.h"
 #include "shared/layout.h"
+#include "shared/near_light.h"
 #include "shared/shading.h"
 
 layout(constant_id = kConstantLightCount) const int kLightCount = kLightsPerGroup;
@@ -15,11 +16,13 @@ layout(constant_id = kConstantOneMaterial) const bool kOneMaterial = false;
 layout(constant_id = kConstantPacked) const bool kPacked = false;
 layout(constant_id = kConstantCoverage) const bool kCoverage = false;
 layout(constant_id = kConstantShadows) const bool kShadows = false;
+layout(constant_id = kConstantNear) const bool kNear = false;
 
 layout(binding = kBindingNormals) uniform sampler2D normals;
 layout(binding = kBindingAlbedo) uniform sampler2D albedos;
 layout(binding = kBindingTable) uniform sampler3D table;
 layout(binding = kBindingHorizon) uniform sampler2DArray horizons;
+layout(binding = kBindingPlaces) uniform sampler2D places;
 layout(scalar, binding = kBindingLights) uniform Lights
 {
     LightFrame lights[kLightsPerGroup];
@@ -43,12 +46,27 @@ vec4 brdf(LightFrame light, vec3 n, vec3 m)
     return textureLod(table, texelFromUnit(unit, constants.tableSize.xyz), 0.0);
 }
 
+// The light as the pixel meets it.
+LightFrame metLight(int i, vec3 place)
+{
+    if (!kNear) {
+        return lights[i];
+    }
+    vec4 met = lightFromPlace(lightDirection(lights[i]), constants.nearness[i], place);
+    return lightFrame(met.xyz, constants.view.xyz, met.w * lights[i].irradiance.rgb);
+}
+
 // Share of the light's radiance that no height in its way takes.
 float shareOfLight(vec4 lookup, ivec2 pixel)
 {
     float code = 255.0 * texelFetch(horizons, ivec3(pixel, int(lookup.x)), 0).r;
     float nextCode = 255.0 * texelFetch(horizons, ivec3(pixel, int(lookup.y)), 0).r;
     return visibility(lookup, code, nextCode);
+}
+
+vec4 lookupOf(int i, LightFrame light)
+{
+    return kNear ? horizonLookup(lightDirection(light), textureSize(horizons, 0).z) : constants.horizon[i];
 }
 
 void main()
@@ -62,16 +80,18 @@ void main()
     if (!hasNormal || !hasMaterial || dot(n, constants.view.xyz) <= 0.0) {
         discard;
     }
+    vec3 place = kNear ? texelFetch(places, pixel, 0).xyz : vec3(0.0);
     vec3 sum = vec3(0.0);
     float unmeasured = 0.0;
     [[unroll]] for (int i = 0; i < kLightCount; ++i) {
-        vec3 m = normalInFrame(lights[i], n);
-        vec4 f = brdf(lights[i], n, m);
-        float nDotL = cosineInFrame(lights[i], m);
-        float arriving = kShadows ? shareOfLight(constants.horizon[i], pixel) : 1.0;
-        sum += arriving * radianceFromBrdf(f.rgb, lights[i].irradiance.rgb, nDotL);
+        LightFrame light = metLight(i, place);
+        vec3 m = normalInFrame(light, n);
+        vec4 f = brdf(light, n, m);
+        float nDotL = cosineInFrame(light, m);
+        float arriving = kShadows ? shareOfLight(lookupOf(i, light), pixel) : 1.0;
+        sum += arriving * radianceFromBrdf(f.rgb, light.irradiance.rgb, nDotL);
         if (kCoverage && nDotL > 0.0 && arriving > 0.0) {
-            bool measured = isMeasured(f.w, lights[i].across.w, kCoordinates, constants.tableSize.w);
+            bool measured = isMeasured(f.w, light.across.w, kCoordinates, constants.tableSize.w);
             unmeasured += measured ? 0.0 : 1.0;
         }
     }

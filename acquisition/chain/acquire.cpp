@@ -103,6 +103,7 @@ Surface surfaceOf(const Capture& capture, const PreparedCapture& prepared, Norma
                   std::vector<uint8_t> labels, Image albedo, std::vector<Material> materials)
 {
     const Rig& rig = prepared.rig;
+    const std::vector<Light> lights = placedLights(capture, prepared.given, rig.lights, prepared.nearField);
     Surface surface;
     surface.labels = std::move(labels);
     for (size_t i = 0; i < surface.labels.size(); ++i) {
@@ -114,8 +115,11 @@ Surface surfaceOf(const Capture& capture, const PreparedCapture& prepared, Norma
     surface.materials = std::move(materials);
     surface.albedo = std::move(albedo);
     surface.scale = rig.absolute ? RadianceScale::absolute : RadianceScale::relative;
-    for (size_t i = 0; i < rig.lights.size(); ++i) {
-        surface.lights.push_back({capture.photographs[prepared.given[i]].name, rig.lights[i]});
+    for (size_t i = 0; i < lights.size(); ++i) {
+        surface.lights.push_back({capture.photographs[prepared.given[i]].name, lights[i]});
+    }
+    if (anyIsNear(lights)) { // they are drawn by it
+        surface.height = prepared.guess.height;
     }
     return surface;
 }

@@ -35,6 +35,7 @@ NormalEstimate startEstimate(const PreparedCapture& prepared, const ChosenMethod
     NormalEstimate estimate;
     estimate.given = prepared.given;
     estimate.rig = prepared.rig;
+    estimate.nearField = prepared.nearField;
     estimate.leftOut = prepared.reconciled.leftOut;
     estimate.report = {chosen.method, prepared.reconciled.findings, chosen.heldOutError, prepared.lambertianMisfit};
     append(estimate.report.findings, warningsOf(prepared.rig.lights));

@@ -16,8 +16,9 @@ struct VerdictCounts {
 
 // Normals alone: the first half of the chain.
 struct NormalEstimate {
-    std::vector<size_t> given; // the photographs that normals rest on, as indices into the capture's
-    Rig rig;                   // of these alone
+    std::vector<size_t> given;          // the photographs that normals rest on, as indices into the capture's
+    Rig rig;                            // of these alone
+    std::optional<NearField> nearField; // where they stand; none: they are distant, the camera is orthographic
     NormalMap normals;
     NormalReport report;
     std::vector<std::string> leftOut;    // photographs that disagree with the rest, by name

@@ -45,6 +45,7 @@ NearField rescaled(NearField near, double factor)
     for (glm::vec3& place : near.lights) {
         place *= static_cast<float>(factor);
     }
+    near.depth *= factor;
     near.cameraDistance *= factor;
     near.origin *= factor;
     near.axis *= factor;
@@ -99,9 +100,11 @@ std::vector<PlaceTrial> atDistances(const NearField& near)
 {
     std::vector<PlaceTrial> trials;
     for (int k = -kDistanceSteps; k <= kDistanceSteps; ++k) {
-        trials.push_back({near, {}, 0});
-        for (glm::vec3& place : trials.back().near.lights) {
-            place *= std::exp2(static_cast<float>(k) / 3);
+        NearField& tried = trials.emplace_back(PlaceTrial{near, {}, 0}).near;
+        const float scale = std::exp2(static_cast<float>(k) / 3);
+        tried.depth *= scale;
+        for (glm::vec3& place : tried.lights) {
+            place *= scale;
         }
     }
     return trials;
@@ -111,9 +114,11 @@ std::vector<PlaceTrial> atDepths(const NearField& near, double width)
 {
     std::vector<PlaceTrial> trials;
     for (int k = -kDepthSteps; k <= kDepthSteps; ++k) {
-        trials.push_back({near, {}, 0});
-        for (glm::vec3& place : trials.back().near.lights) {
-            place.z += static_cast<float>(k * kDepthStep * width);
+        NearField& tried = trials.emplace_back(PlaceTrial{near, {}, 0}).near;
+        const double step = k * kDepthStep * width;
+        tried.depth += step;
+        for (glm::vec3& place : tried.lights) {
+            place.z += static_cast<float>(step);
         }
     }
     return trials;

@@ -7,6 +7,7 @@
 
 #include "engine/files/parallel_for.h"
 #include "engine/surface/height_from_normals.h"
+#include "engine/surface/object_places.h"
 
 namespace nacre {
 
@@ -68,30 +69,6 @@ Observations asIfDistant(Observations block, const LocalLights& lights, std::spa
 }
 
 namespace {
-
-bool isAtOutline(const NormalMap& normals, int x, int y)
-{
-    const auto hasNone = [&](int u, int v) {
-        return u < 0 || v < 0 || u >= normals.width || v >= normals.height ||
-               normals.confidence[normals.index(u, v)] <= 0;
-    };
-    return !hasNone(x, y) && (hasNone(x - 1, y) || hasNone(x + 1, y) || hasNone(x, y - 1) || hasNone(x, y + 1));
-}
-
-// What the object's outline has in the mean: the plane that the middle of a closed object stands on.
-float outlineHeight(const NormalMap& normals, const Image& height)
-{
-    double sum = 0, count = 0;
-    for (int y = 0; y < normals.height; ++y) {
-        for (int x = 0; x < normals.width; ++x) {
-            if (isAtOutline(normals, x, y)) {
-                sum += height.values[normals.index(x, y)];
-                ++count;
-            }
-        }
-    }
-    return count > 0 ? static_cast<float>(sum / count) : 0.0f;
-}
 
 // A point is P = C + s r: C the camera at (0, 0, d), r = (u, v, -d) the ray through the plane at (u, v), s = 1 - h / d
 // for the height h. Along the surface n.dP = 0, so that d(log s)/du = -n.x / n.r, and likewise v. q = -d log s has the

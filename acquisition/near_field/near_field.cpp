@@ -11,6 +11,7 @@
 #include <glm/trigonometric.hpp>
 
 #include "engine/files/error.h"
+#include "shared/near_light.h"
 
 namespace nacre {
 
@@ -48,17 +49,6 @@ void requireOutside(const Capture& capture, size_t photograph, double widths)
 }
 
 } // namespace
-
-ObjectExtent extentOf(std::span<const uint32_t> pixels, int width)
-{
-    glm::dvec2 least(std::numeric_limits<double>::infinity()), most(-least);
-    for (const uint32_t pixel : pixels) {
-        const glm::dvec2 corner(pixel % static_cast<uint32_t>(width), pixel / static_cast<uint32_t>(width));
-        least = glm::min(least, corner);
-        most = glm::max(most, corner + 1.0);
-    }
-    return {0.5 * (least + most), std::max(most.x - least.x, most.y - least.y)};
-}
 
 ObjectExtent extentOf(const Capture& capture)
 {
@@ -103,10 +93,30 @@ NearField cameraOf(const Capture& capture)
 NearField withLightsAt(NearField near, const std::vector<Light>& lights, double distance)
 {
     near.lights.clear();
+    near.depth = 0;
     for (const Light& light : lights) {
         near.lights.push_back(static_cast<float>(distance) * light.direction);
     }
     return near;
+}
+
+std::vector<Light> placedLights(const Capture& capture, const std::vector<size_t>& photographs,
+                                std::vector<Light> lights, const std::optional<NearField>& near)
+{
+    if (!near || near->lights.empty()) {
+        return lights;
+    }
+    const glm::vec3 depth(0, 0, near->depth);
+    const float width = static_cast<float>(extentOf(capture).width);
+    const float distance = glm::length(near->lights.front() - depth);
+    for (size_t i = 0; i < lights.size(); ++i) {
+        const glm::vec3 said =
+            capture.lightPlaces.empty() ? distance * lights[i].direction : width * capture.lightPlaces[photographs[i]];
+        const glm::vec3 place = said + depth;
+        lights[i].direction = glm::normalize(place);
+        lights[i].distance = glm::length(place) / width;
+    }
+    return lights;
 }
 
 // The pixel's ray meets the plane at (u, v, 0) from the axis; the point is on it at the height given.
@@ -132,9 +142,9 @@ Light lightAt(const NearField& near, const LocalFrame& frame, const Light& light
     if (near.lights.empty()) {
         return {frame.toLocal * light.direction, light.irradiance};
     }
-    const glm::vec3 towards = near.lights[index] - frame.place;
-    const float square = glm::dot(towards, towards), reference = glm::dot(near.lights[index], near.lights[index]);
-    return {frame.toLocal * (towards / std::sqrt(square)), light.irradiance * (reference / square)};
+    const float distance = glm::length(near.lights[index]);
+    const glm::vec4 met = lightFromPlace(near.lights[index] / distance, 1 / distance, frame.place);
+    return {frame.toLocal * glm::vec3(met), light.irradiance * met.w};
 }
 
 } // namespace nacre

@@ -11,6 +11,7 @@
 
 #include "acquisition/capture/capture.h"
 #include "engine/lights/light.h"
+#include "engine/surface/object_places.h"
 
 namespace nacre {
 
@@ -21,29 +22,28 @@ struct NearField {
     double cameraDistance = std::numeric_limits<double>::infinity(); // from the plane; infinite: orthographic
     glm::dvec2 origin{0};                                            // image coordinates (capture.h, Circle)
     glm::dvec2 axis{0}; // where the camera's axis meets the plane, image coordinates
+    double depth = 0;   // by which the lights stand nearer to the camera than they are said to
 };
 
-// The bounding box of pixels of a picture so wide: the longer side is the object's width.
-struct ObjectExtent {
-    glm::dvec2 middle{0}; // image coordinates
-    double width = 0;     // pixels
-};
-ObjectExtent extentOf(std::span<const uint32_t> pixels, int width);
+// Of the capture's mask.
 ObjectExtent extentOf(const Capture& capture);
 
 // What the capture itself says of `lights`, which are those of `photographs`: their places, or one distance of all from
 // the object's middle; its field of view. None where the camera is orthographic and lights are distant, or so far that
 // their directions turn by less than kHarmlessTurn over the object. Throws Error (data) where a light stands inside the
-// object, nearer than kNearestLight widths to its middle.
+// object.
 std::optional<NearField> nearFieldOf(const Capture& capture, const std::vector<size_t>& photographs,
                                      const std::vector<Light>& lights);
-inline constexpr double kNearestLight = 0.6;
 inline constexpr double kHarmlessTurn = 2; // degrees from the object's middle to its edge
 
 // The camera alone.
 NearField cameraOf(const Capture& capture);
 // Lights at one distance from the object's middle along their directions.
 NearField withLightsAt(NearField near, const std::vector<Light>& lights, double distance);
+// `lights`, those of `photographs`, as they stand before the object's middle: where the capture has their places, at
+// these, else at the one distance of near's; all at near's depth. Distant where near's are.
+std::vector<Light> placedLights(const Capture& capture, const std::vector<size_t>& photographs,
+                                std::vector<Light> lights, const std::optional<NearField>& near);
 
 // A point of the surface as its pixel sees it: the pixel's own frame has z towards the camera.
 struct LocalFrame {

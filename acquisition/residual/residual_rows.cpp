@@ -1,11 +1,13 @@
 #include "acquisition/residual/residual_rows.h"
 
 #include <algorithm>
+#include <cassert>
 
 #include <glm/common.hpp>
 
 #include "engine/scene/ball.h"
 #include "engine/scene/reference.h"
+#include "engine/surface/object_places.h"
 #include "shared/ball.h"
 
 namespace nacre {
@@ -33,8 +35,16 @@ std::vector<float> ballsOf(const Surface& surface, const BrdfTable& table, int s
 
 } // namespace
 
-LightBalls::LightBalls(const Surface& surface, int size, int threads) : surface_(surface), size_(size)
+bool hasNearLight(const Surface& surface)
 {
+    return std::any_of(surface.lights.begin(), surface.lights.end(),
+                       [](const CapturedLight& light) { return isNear(light.light); });
+}
+
+LightBalls::LightBalls(const Surface& surface, int size, int threads)
+    : surface_(surface), size_(size), places_(hasNearLight(surface) ? pixelPlaces(surface) : std::vector<glm::vec3>())
+{
+    assert(size == 0 || places_.empty());
     if (size > 0) {
         for (const Material& material : surface.materials) {
             materials_.push_back(ballsOf(surface, material.table, size, threads));
@@ -60,7 +70,9 @@ void LightBalls::predict(size_t pixel, std::span<float> predicted) const
     const glm::vec3& normal = surface_.normals.normals[pixel];
     if (size_ == 0) {
         for (size_t i = 0; i < lights; ++i) {
-            const Light light{surface_.lights[i].light.direction, glm::vec3(1)};
+            Light light = surface_.lights[i].light;
+            light.irradiance = glm::vec3(1);
+            light = places_.empty() ? light : lightAt(light, places_[pixel]);
             const glm::vec3 radiance = brdfRadiance(surface_, pixel, light, kCamera);
             for (size_t c = 0; c < 3; ++c) {
                 predicted[c * lights + i] = radiance[static_cast<int>(c)];

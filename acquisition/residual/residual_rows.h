@@ -10,14 +10,18 @@
 
 namespace nacre {
 
+bool hasNearLight(const Surface& surface);
+
 // The surface's BRDFs under each of its captured lights, as reference balls (shaders/shared/ball.h): with the view from
-// the front, a ball answers all pixels of a material. They save time where pixels outnumber a ball's texels.
+// the front and distant lights, a ball answers all pixels of a material. They save time where pixels outnumber a ball's
+// texels.
 class LightBalls {
 public:
-    // `size`: texels across, at least 2; 0: no balls, each pixel asks its table. The surface is referred to.
+    // `size`: texels across, at least 2; 0: no balls, each pixel asks its table, as near lights need it. The surface is
+    // referred to.
     LightBalls(const Surface& surface, int size, int threads);
 
-    // Radiance over irradiance of a shaded pixel under all lights: [channel * lights + light].
+    // Radiance over irradiance (at the object's middle) of a shaded pixel under all lights: [channel * lights + light].
     void predict(size_t pixel, std::span<float> predicted) const;
 
 private:
@@ -25,6 +29,7 @@ private:
 
     const Surface& surface_;
     int size_;
+    std::vector<glm::vec3> places_;             // of the pixels, where a light is near
     std::vector<std::vector<float>> materials_; // [texel * 3 * lights + channel * lights + light]
 };
 

@@ -98,8 +98,9 @@ void addRenderCommand(CLI::App& app)
         {.material = "Material instead of SURFACE, for --onto: .binary (MERL), .bsdf (RGL), .exr, "
                      "NAME.nacre[#MATERIAL] or a model",
          .onto = "Shape for the first material: camera-frame or tangent-space normals (.exr, .png) or NAME.nacre",
-         .light = "Light: direction x,y,z[,r,g,b] with irradiance [1]; captured:N; soft:DEGREES: in front spreads "
-                  "it. Repeatable (default: captured:1)",
+         .light = "Light: direction x,y,z[,r,g,b] with irradiance [1]; captured:N; near:WIDTHS: in front of x,y,z puts "
+                  "it so many widths of the object away; soft:DEGREES: in front spreads it. Repeatable (default: "
+                  "captured:1)",
          .environment = "Latitude-longitude picture of the light from all around, .exr or .hdr",
          .exposure = "Exposure in stops, not for .exr (default: 99th percentile of radiance at 0.9)",
          .show = "Content: picture, normals, labels, coverage (stripes where not measured), theta-h or theta-d of "

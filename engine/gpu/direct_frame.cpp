@@ -8,6 +8,7 @@
 
 #include "direct_frag.h"
 #include "display_frag.h"
+#include "engine/surface/object_places.h"
 #include "shared/layout.h"
 
 namespace nacre {
@@ -20,16 +21,23 @@ constexpr VkDeviceSize kGroupBytes = kLightsPerGroup * sizeof(LightFrame);
 constexpr std::array<uint8_t, 1> kNoCodes = {0};
 constexpr std::array kDirectBindings = {
     ShaderBinding{kBindingNormals, kTextureInput}, ShaderBinding{kBindingAlbedo, kTextureInput},
-    ShaderBinding{kBindingTable, kTextureInput}, ShaderBinding{kBindingLights, kUniformInput},
-    ShaderBinding{kBindingHorizon, kTextureInput}};
+    ShaderBinding{kBindingTable, kTextureInput},   ShaderBinding{kBindingLights, kUniformInput},
+    ShaderBinding{kBindingHorizon, kTextureInput}, ShaderBinding{kBindingPlaces, kTextureInput}};
 static_assert(kConstantLightCount == 0 && kConstantCoordinates == 1 && kConstantOneMaterial == 2 &&
-              kConstantPacked == 3 && kConstantCoverage == 4 && kConstantShadows == 5);
+              kConstantPacked == 3 && kConstantCoverage == 4 && kConstantShadows == 5 && kConstantNear == 6);
 
-// Those of the group that starts at `first`.
-void fillHorizon(DirectConstants& constants, const LightGroups& lights, size_t first, size_t count, uint32_t azimuths)
+// Of the lights of a group.
+void fillHorizon(DirectConstants& constants, std::span<const Light> lights, uint32_t azimuths)
 {
-    for (size_t i = 0; i < count; ++i) {
-        constants.horizon[i] = horizonLookup(lights.direction(first + i), static_cast<int>(azimuths));
+    for (size_t i = 0; i < lights.size(); ++i) {
+        constants.horizon[i] = horizonLookup(lights[i].direction, static_cast<int>(azimuths));
+    }
+}
+
+void fillNearness(DirectConstants& constants, std::span<const Light> lights)
+{
+    for (size_t i = 0; i < lights.size(); ++i) {
+        constants.nearness[i] = isNear(lights[i]) ? 1 / lights[i].distance : 0.0f;
     }
 }
 
@@ -53,6 +61,7 @@ Surface rowsOf(const Surface& surface, int first, int count)
     rows.normals.normals = cut(surface.normals.normals, from, pixels);
     rows.normals.confidence = cut(surface.normals.confidence, from, pixels);
     rows.labels = cut(surface.labels, from, pixels);
+    rows.places = cut(surface.places, from, pixels);
     rows.albedo.values = cut(surface.albedo.values, 3 * from, 3 * pixels);
     std::vector<int64_t> picked(pixels);
     std::iota(picked.begin(), picked.end(), static_cast<int64_t>(from));
@@ -80,10 +89,7 @@ void LightGroups::upload(const Context& context, std::span<const Light> lights, 
     if (buffer_.bytes() < groups * kGroupBytes) {
         buffer_ = Buffer(context, groups * kGroupBytes, VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT);
     }
-    directions_.clear();
-    for (const Light& light : lights) {
-        directions_.push_back(light.direction);
-    }
+    lights_.assign(lights.begin(), lights.end());
     view_ = view;
     std::transform(lights.begin(), lights.end(), static_cast<LightFrame*>(buffer_.mapped()),
                    [&](const Light& light) { return lightFrame(light.direction, view, light.irradiance); });
@@ -115,21 +121,28 @@ void DirectPass::record(VkCommandBuffer commands, const Inputs& inputs, const Li
                               .tableSize = glm::vec4(size.width, size.height, size.depth, domain.thetaDMax),
                               .material = inputs.material,
                               .firstRow = inputs.firstRow,
+                              .nearness = {},
                               .horizon = {}};
     const Texture& albedo = inputs.albedo ? *inputs.albedo : inputs.normals; // bound, but not read
     const Texture& horizon = inputs.horizon ? *inputs.horizon : noHorizon_;
+    const Texture& places = inputs.places ? *inputs.places : inputs.normals;
     for (size_t light = first; light < last; light += kLightsPerGroup) {
         const auto count = static_cast<int>(std::min<size_t>(last - light, kLightsPerGroup));
         const std::array shaderInputs = {
-            textureInput(kBindingNormals, nearest_, inputs.normals), textureInput(kBindingAlbedo, nearest_, albedo),
+            textureInput(kBindingNormals, nearest_, inputs.normals),    textureInput(kBindingAlbedo, nearest_, albedo),
             textureInput(kBindingTable, linear_, inputs.table.texture), lights.group(light / kLightsPerGroup),
-            textureInput(kBindingHorizon, nearest_, horizon)};
+            textureInput(kBindingHorizon, nearest_, horizon),           textureInput(kBindingPlaces, nearest_, places)};
+        const std::span<const Light> group = lights.lights().subspan(light, static_cast<size_t>(count));
+        const bool near = inputs.places && anyIsNear(group);
+        if (near) {
+            fillNearness(constants, group);
+        }
         if (inputs.horizon) {
-            fillHorizon(constants, lights, light, static_cast<size_t>(count), horizon.layers());
+            fillHorizon(constants, group, horizon.layers());
         }
         const Pipeline& pipeline = pipelines_.with(
             {count, domain.coordinates, inputs.albedo == nullptr, inputs.normals.format() == kPackedNormalFormat,
-             inputs.coverage && inputs.table.knowsCoverage, inputs.horizon != nullptr});
+             inputs.coverage && inputs.table.knowsCoverage, inputs.horizon != nullptr, near});
         draw(context_, commands, pipeline, shaderInputs, bytesOf(constants));
     }
 }
@@ -176,7 +189,8 @@ void DirectFrame::recordRows(VkCommandBuffer commands, const PixelTextures& pixe
                         .material = static_cast<int>(material),
                         .firstRow = rows.offset.y,
                         .coverage = coverage,
-                        .horizon = pixels.horizon.bytes() > 0 ? &pixels.horizon : nullptr},
+                        .horizon = pixels.horizon.bytes() > 0 ? &pixels.horizon : nullptr,
+                        .places = pixels.places.bytes() > 0 ? &pixels.places : nullptr},
                        inputs.lights, 0, inputs.lights.lightCount());
     }
     if (inputs.residual) {

@@ -17,15 +17,15 @@ public:
     // view is unit, towards the viewer for whom they are.
     void upload(const Context& context, std::span<const Light> lights, const glm::vec3& view);
 
-    size_t lightCount() const { return directions_.size(); }
-    const glm::vec3& direction(size_t light) const { return directions_[light]; }
+    size_t lightCount() const { return lights_.size(); }
+    std::span<const Light> lights() const { return lights_; }
     const glm::vec3& view() const { return view_; }
     ShaderInput group(size_t index) const;
     VkDeviceSize bytes() const { return buffer_.bytes(); }
 
 private:
     Buffer buffer_;
-    std::vector<glm::vec3> directions_;
+    std::vector<Light> lights_;
     glm::vec3 view_{0, 0, 1};
 };
 
@@ -43,6 +43,7 @@ public:
         int firstRow = 0;      // of the surface, in the target's row 0
         bool coverage = false; // alpha counts what asks for unmeasured directions, where the table knows them
         const Texture* horizon = nullptr; // of the height that casts shadows; null: none does
+        const Texture* places = nullptr;  // of the pixels before near lights; null: all lights are drawn as distant
     };
     // Lights [first, last) in order; first is a multiple of kLightsPerGroup.
     void record(VkCommandBuffer commands, const Inputs& inputs, const LightGroups& lights, size_t first, size_t last);

@@ -8,6 +8,7 @@
 
 #include "engine/files/error.h"
 #include "engine/scene/scene_residual.h"
+#include "engine/surface/object_places.h"
 #include "engine/surface/surface.h"
 #include "false_colour_frag.h"
 #include "shared/layout.h"
@@ -160,6 +161,9 @@ std::string Renderer::whyDirect()
     if (surface_.materials.empty()) {
         return "there is no material";
     }
+    if (anyIsNear(lights_)) {
+        return "near lights differ between pixels of one normal";
+    }
     if (!surface_.horizon.empty()) {
         return "cast shadows differ between pixels of one normal";
     }
@@ -208,9 +212,22 @@ Renderer::Target& Renderer::target()
     return *picture_;
 }
 
+// Before near lights; what was made of the surface without its places is dropped.
+void Renderer::placePixels()
+{
+    if (surface_.places.empty() && anyIsNear(lights_)) {
+        surface_.places = pixelPlaces(surface_);
+        pixels_.reset();
+        exposurePixels_.reset();
+        directFrame_.reset();
+        exposureFrame_.reset();
+    }
+}
+
 void Renderer::uploadLights()
 {
     if (lightsAreStale_) {
+        placePixels();
         residualFrame_ = residualFrame(surface_.residual, lights_, hasResidual() ? residual_ : ResidualUse::off);
         groups_.upload(context_, residualFrame_.base, view_);
         lightsAreStale_ = false;
@@ -327,6 +344,7 @@ Frame Renderer::radiance()
 
 float Renderer::automaticExposure()
 {
+    uploadLights();
     if (!exposurePixels_) {
         exposurePixels_ = sampledPixels(surface_, kExposurePixels);
     }

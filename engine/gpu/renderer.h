@@ -12,7 +12,7 @@
 
 namespace nacre {
 
-// Draws a surface under distant lights, without a window. Whatever is set is uploaded once and stays; nothing is drawn
+// Draws a surface under lights, without a window. Whatever is set is uploaded once and stays; nothing is drawn
 // twice. A picture depends on what is set alone, not on what was set before. The context must live longer.
 class Renderer {
 public:
@@ -71,6 +71,7 @@ private:
     const PixelTextures& pixels();
     Target& target();
     void uploadLights();
+    void placePixels();
     void lightsHaveChanged();
     bool hasResidual() const;
     bool ballsAreCodes() const;

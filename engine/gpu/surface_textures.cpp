@@ -40,6 +40,15 @@ std::vector<glm::vec4> albedoTexels(const Surface& surface)
     return texels;
 }
 
+std::vector<glm::vec4> placeTexels(const Surface& surface)
+{
+    std::vector<glm::vec4> texels;
+    for (const glm::vec3& place : surface.places) {
+        texels.emplace_back(place, 0);
+    }
+    return texels;
+}
+
 // The layer's texels lie picture by picture; the shader fetches all of a pixel's, which is quickest from one place.
 TexelBuffer uploadResidual(const Context& context, const ResidualLayer& layer)
 {
@@ -79,6 +88,10 @@ PixelTextures uploadPixels(const Context& context, const Surface& surface, bool 
     if (!surface.horizon.empty()) {
         textures.horizon =
             uploadLayers(context, extent, static_cast<uint32_t>(surface.horizon.azimuths), surface.horizon.codes);
+    }
+    if (!surface.places.empty()) {
+        textures.places =
+            uploadTexture(context, VK_IMAGE_TYPE_2D, extent, full ? kFloatFormat : kHalfFormat, placeTexels(surface));
     }
     if (!surface.residual.empty()) {
         textures.residual = uploadResidual(context, surface.residual);

@@ -18,9 +18,13 @@ struct PixelTextures {
     Texture normals;
     Texture albedo;        // rgb, w = material index; empty where the surface is plain
     Texture horizon;       // an array of azimuths; empty where nothing casts shadows
+    Texture places;        // xyz, of the surface's places; empty where it has none
     TexelBuffer residual;  // of kIntegersFormat, a pixel's components side by side; empty where there is no layer
     int residualFours = 0; // components, in fours
-    VkDeviceSize bytes() const { return normals.bytes() + albedo.bytes() + horizon.bytes() + residual.bytes(); }
+    VkDeviceSize bytes() const
+    {
+        return normals.bytes() + albedo.bytes() + horizon.bytes() + places.bytes() + residual.bytes();
+    }
 };
 
 // The albedo's texture, or one that shaders which do not read it may be given in its place.

@@ -220,7 +220,7 @@ void saveLightFile(const fs::path& file, const LightFile& lights)
     using nlohmann::json;
     json list = json::array();
     for (size_t i = 0; i < lights.lights.size(); ++i) {
-        const auto& [direction, irradiance] = lights.lights[i];
+        const glm::vec3 &direction = lights.lights[i].direction, &irradiance = lights.lights[i].irradiance;
         json light{{"direction", {direction.x, direction.y, direction.z}}};
         if (!lights.photographs.empty()) {
             light["photograph"] = lights.photographs[i];

@@ -26,7 +26,7 @@ std::vector<Light> softLight(const Light& light, float radius, int count)
         const float z = 1 - (1 - std::cos(radius)) * (i + 0.5f) / count; // equal areas of the cap
         const float r = std::sqrt(1 - z * z), azimuth = kGoldenAngle * i;
         const glm::vec3 direction = z * light.direction + r * (std::cos(azimuth) * x + std::sin(azimuth) * y);
-        lights.push_back({glm::normalize(direction), light.irradiance / static_cast<float>(count)});
+        lights.push_back({glm::normalize(direction), light.irradiance / static_cast<float>(count), light.distance});
     }
     return lights;
 }

@@ -8,6 +8,7 @@
 
 #include "engine/scene/coverage.h"
 #include "engine/scene/reference.h"
+#include "engine/surface/object_places.h"
 #include "shared/light_frame.h"
 
 namespace nacre {
@@ -25,9 +26,10 @@ bool isShown(const Scene& scene, size_t pixel)
            glm::dot(surface.normals.normals[pixel], scene.view) > 0;
 }
 
-bool anyLightAsksUnmeasured(const Scene& scene, const BrdfTable& table, const glm::vec3& n)
+bool anyLightAsksUnmeasured(const Scene& scene, const BrdfTable& table, const glm::vec3& n, const glm::vec3& place)
 {
-    return std::any_of(scene.lights.begin(), scene.lights.end(), [&](const Light& light) {
+    return std::any_of(scene.lights.begin(), scene.lights.end(), [&](const Light& given) {
+        const Light light = lightAt(given, place);
         return glm::dot(n, light.direction) > 0 && asksUnmeasured(table, n, light.direction, scene.view);
     });
 }
@@ -44,11 +46,14 @@ Image hatchedPicture(const Scene& scene, const Display& display, int threads)
     for (const Material& material : surface.materials) {
         known.push_back(knowsCoverage(material.table));
     }
+    const std::vector<glm::vec3> places =
+        anyIsNear(scene.lights) ? pixelPlaces(surface) : std::vector(surface.labels.size(), glm::vec3(0));
     Image picture = displayedImage(renderReference(scene, threads), display);
     for (size_t pixel = 0; pixel < picture.pixelCount(); ++pixel) {
         const glm::vec3& n = surface.normals.normals[pixel];
         const uint8_t label = surface.labels[pixel];
-        if (isShown(scene, pixel) && known[label] && anyLightAsksUnmeasured(scene, surface.materials[label].table, n)) {
+        if (isShown(scene, pixel) && known[label] &&
+            anyLightAsksUnmeasured(scene, surface.materials[label].table, n, places[pixel])) {
             const auto x = static_cast<int>(pixel % picture.width), y = static_cast<int>(pixel / picture.width);
             picture.setRgb(x, y, rounded(hatched(picture.rgb(x, y), {x, y})));
         }

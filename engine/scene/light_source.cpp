@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <limits>
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
@@ -17,6 +18,7 @@ namespace {
 
 constexpr std::string_view kOff = "off:";
 constexpr std::string_view kSoft = "soft:";
+constexpr std::string_view kNear = "near:";
 constexpr std::string_view kCaptured = "captured:";
 
 Error lightError(const std::string& text, const std::string& wrong, const std::string& expected)
@@ -34,18 +36,41 @@ bool takePrefix(std::string& rest, std::string_view prefix)
     return true;
 }
 
+// Takes the number in front of a colon off the front of `rest`; NaN where there is none.
+float takeNumber(std::string& rest)
+{
+    const size_t colon = rest.find(':');
+    const std::vector<float> numbers = numbersFromText(rest.substr(0, colon));
+    if (colon == std::string::npos || numbers.size() != 1) {
+        return std::numeric_limits<float>::quiet_NaN();
+    }
+    rest.erase(0, colon + 1);
+    return numbers.front();
+}
+
 float takeSoftness(const std::string& text, std::string& rest)
 {
     if (!takePrefix(rest, kSoft)) {
         return 0;
     }
-    const size_t colon = rest.find(':');
-    const std::vector<float> radius = numbersFromText(rest.substr(0, colon));
-    if (colon == std::string::npos || radius.size() != 1 || !(radius.front() > 0) || radius.front() > 90) {
+    const float radius = takeNumber(rest);
+    if (!(radius > 0) || radius > 90) {
         throw lightError(text, "has no radius", "soft:DEGREES:x,y,z with a radius above 0, at most 90");
     }
-    rest.erase(0, colon + 1);
-    return radius.front();
+    return radius;
+}
+
+float takeDistance(const std::string& text, std::string& rest)
+{
+    if (!takePrefix(rest, kNear)) {
+        return LightSource().distance;
+    }
+    const float widths = takeNumber(rest);
+    if (!(widths >= static_cast<float>(kNearestLight))) {
+        throw lightError(text, "has no distance outside the object",
+                         fmt::format("near:WIDTHS:x,y,z with {} widths of the object or more", kNearestLight));
+    }
+    return widths;
 }
 
 int capturedNumber(const std::string& text, const std::string& digits)
@@ -123,6 +148,7 @@ LightSource lightSourceFromText(const std::string& text)
     if (takePrefix(rest, kCaptured)) {
         source.captured = capturedNumber(text, rest);
     } else {
+        source.distance = takeDistance(text, rest);
         readNumbers(text, rest, source);
     }
     return source;
@@ -137,6 +163,9 @@ std::string textOf(const LightSource& source)
     if (source.captured > 0) {
         return text + fmt::format("{}{}", kCaptured, source.captured);
     }
+    if (std::isfinite(source.distance)) {
+        text += fmt::format("{}{}:", kNear, source.distance);
+    }
     text += commaText(source.direction);
     return source.irradiance == glm::vec3(1) ? text : text + "," + commaText(source.irradiance);
 }
@@ -145,7 +174,7 @@ Light lightOf(const LightSource& source, std::span<const CapturedLight> captured
 {
     if (source.captured == 0) {
         const glm::dvec3 direction(source.direction);
-        return {.direction = glm::vec3(direction / glm::length(direction)), .irradiance = source.irradiance};
+        return {glm::vec3(direction / glm::length(direction)), source.irradiance, source.distance};
     }
     const auto number = static_cast<size_t>(source.captured);
     if (number > captured.size()) {

@@ -7,6 +7,7 @@
 
 #include "engine/files/parallel_for.h"
 #include "engine/scene/ball.h"
+#include "engine/surface/object_places.h"
 #include "shared/shading.h"
 
 namespace nacre {
@@ -16,6 +17,7 @@ namespace {
 struct PreparedLights {
     ResidualFrame residual;
     std::vector<glm::vec4> lookups; // horizonLookup of each
+    std::vector<glm::vec3> places;  // of the pixels, where a light is near
 };
 
 PreparedLights prepare(const Scene& scene)
@@ -26,7 +28,20 @@ PreparedLights prepare(const Scene& scene)
     for (const Light& light : scene.lights) {
         prepared.lookups.push_back(horizonLookup(light.direction, scene.surface.horizon.azimuths));
     }
+    if (anyIsNear(scene.lights)) {
+        prepared.places = pixelPlaces(scene.surface);
+    }
     return prepared;
+}
+
+glm::vec3 radianceOfLight(const Scene& scene, const PreparedLights& lights, size_t light, size_t pixel)
+{
+    const Surface& surface = scene.surface;
+    const Light& base = lights.residual.base[light];
+    const Light met = isNear(base) ? lightAt(base, lights.places[pixel]) : base;
+    const glm::vec4 lookup =
+        isNear(base) ? horizonLookup(met.direction, surface.horizon.azimuths) : lights.lookups[light];
+    return visibilityOf(surface.horizon, lookup, pixel) * brdfRadiance(surface, pixel, met, scene.view);
 }
 
 // What the BRDF says, and what it does not know.
@@ -46,8 +61,7 @@ glm::vec3 radianceOfPixel(const Scene& scene, const PreparedLights& lights, size
     }
     glm::vec3 sum(0);
     for (size_t i = 0; i < scene.lights.size(); ++i) {
-        sum += visibilityOf(surface.horizon, lights.lookups[i], pixel) *
-               brdfRadiance(surface, pixel, lights.residual.base[i], scene.view);
+        sum += radianceOfLight(scene, lights, i, pixel);
     }
     return withResidual(scene, lights.residual, sum, pixel);
 }

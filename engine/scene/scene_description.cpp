@@ -251,6 +251,7 @@ void resolveCaptured(SceneDescription& scene, std::span<const CapturedLight> cap
             const Light light = lightOf(source, captured);
             source.direction = light.direction;
             source.irradiance = light.irradiance;
+            source.distance = light.distance;
         }
     }
 }

@@ -52,6 +52,7 @@ Surface fittedSurface(const Surface& surface, int width, int height)
     Surface fitted = surface;
     fitted.normals = fittedNormalMap(surface.normals, width, height);
     fitted.labels.assign(fitted.normals.normals.size(), Surface::kNoMaterial);
+    fitted.places.clear();
     const bool hasAlbedo = !surface.albedo.values.empty();
     fitted.albedo = hasAlbedo ? Image(width, height, 3, 1.0f) : Image();
     const bool hasHeight = !surface.height.values.empty();
@@ -88,6 +89,7 @@ Surface sampledPixels(const Surface& surface, size_t most)
     sample.labels.assign(sample.normals.normals.size(), Surface::kNoMaterial);
     const bool hasAlbedo = !surface.albedo.values.empty();
     sample.albedo = hasAlbedo ? Image(width, height, 3, 1.0f) : Image();
+    sample.places.resize(surface.places.empty() ? 0 : sample.labels.size());
     std::vector<int64_t> picked(sample.labels.size(), -1);
     for (size_t i = 0; i < count; ++i) {
         const size_t from = all[i * all.size() / count];
@@ -95,6 +97,9 @@ Surface sampledPixels(const Surface& surface, size_t most)
         sample.normals.normals[i] = surface.normals.normals[from];
         sample.normals.confidence[i] = surface.normals.confidence[from];
         sample.labels[i] = surface.labels[from];
+        if (!surface.places.empty()) {
+            sample.places[i] = surface.places[from];
+        }
         if (hasAlbedo) {
             std::copy_n(&surface.albedo.values[3 * from], 3, &sample.albedo.values[3 * i]);
         }

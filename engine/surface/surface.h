@@ -50,6 +50,7 @@ struct Surface {
     Image height;
     ResidualLayer residual; // of the captured photographs; empty: the BRDF is all
     HorizonMap horizon;     // of the height, for cast shadows; empty: lights reach all that faces them. In no file
+    std::vector<glm::vec3> places; // pixelPlaces, where they are known; in no file
     std::vector<CapturedLight> lights;
     RadianceScale scale = RadianceScale::relative;
 };
@@ -81,9 +82,9 @@ Surface transferredSurface(const Surface& target, const Material& material);
 // layer and horizon alike.
 Surface fittedSurface(const Surface& surface, int width, int height);
 
-// The pixels alone (normals, labels, albedo factors, residual layer; no materials) of at most `most` of the surface's
-// pixels that have a normal and a material: all of them, or evenly spaced ones in reading order. Packed into a picture
-// near to square.
+// The pixels alone (normals, labels, albedo factors, residual layer, places; no materials) of at most `most` of the
+// surface's pixels that have a normal and a material: all of them, or evenly spaced ones in reading order. Packed into
+// a picture near to square.
 Surface sampledPixels(const Surface& surface, size_t most);
 
 } // namespace nacre

@@ -98,9 +98,13 @@ nlohmann::json descriptionOf(const Surface& surface)
         json["parts"] = surface.parts;
     }
     for (const CapturedLight& light : surface.lights) {
-        json["lights"].push_back({{"photograph", light.photograph},
-                                  {"direction", arrayOf(light.light.direction)},
-                                  {"irradiance", arrayOf(light.light.irradiance)}});
+        nlohmann::json& written = json["lights"].emplace_back();
+        written = {{"photograph", light.photograph},
+                   {"direction", arrayOf(light.light.direction)},
+                   {"irradiance", arrayOf(light.light.irradiance)}};
+        if (std::isfinite(light.light.distance)) {
+            written["distance"] = light.light.distance;
+        }
     }
     return json;
 }
@@ -259,6 +263,19 @@ RadianceScale scaleOf(const JsonNode& node)
     return node.text() == "absolute" ? RadianceScale::absolute : RadianceScale::relative;
 }
 
+Light lightOf(const JsonNode& node)
+{
+    Light light{node.at("direction").vector3(), node.at("irradiance").vector3()};
+    if (const auto distance = node.find("distance")) {
+        if (!(distance->number() >= kNearestLight)) {
+            throw distance->error(fmt::format("is {:g}, inside the object", distance->number()),
+                                  fmt::format("{} widths of the object or more", kNearestLight));
+        }
+        light.distance = static_cast<float>(distance->number());
+    }
+    return light;
+}
+
 Surface surfaceOf(const JsonNode& root)
 {
     Surface surface;
@@ -280,8 +297,7 @@ Surface surfaceOf(const JsonNode& root)
         surface.height = loadBeside(*heights, surface, 1);
     }
     for (const JsonNode& light : root.at("lights").items()) {
-        surface.lights.push_back(
-            {light.at("photograph").text(), {light.at("direction").vector3(), light.at("irradiance").vector3()}});
+        surface.lights.push_back({light.at("photograph").text(), lightOf(light)});
     }
     if (const auto residual = root.find("residual")) {
         surface.residual = residualOf(*residual, surface);

@@ -58,8 +58,8 @@ std::vector<ReviewedPhotograph> listPhotographs(const Capture& capture, const Ac
 }
 
 // Empty, with the reason in `review`, where nobody needs it or nobody can have it.
-std::optional<Surface> acquireWithheld(const Capture& capture, AcquireOptions options, const Progress& progress,
-                                       CaptureReview& review)
+std::optional<Acquisition> acquireWithheld(const Capture& capture, AcquireOptions options, const Progress& progress,
+                                           CaptureReview& review)
 {
     const auto isUnseen = [](const ReviewedPhotograph& p) { return !p.isGiven && !p.isDiscordant; };
     const auto unseen = std::count_if(review.photographs.begin(), review.photographs.end(), isUnseen);
@@ -72,11 +72,11 @@ std::optional<Surface> acquireWithheld(const Capture& capture, AcquireOptions op
     options.ladder.toleranceDecibels = 0;
     options.ladder.budgetBytes = 0;
     try {
-        Surface surface = acquire(capture, options, progress).surface;
+        Acquisition acquisition = acquire(capture, options, progress);
         review.heldOut = fmt::format("A second acquisition with the same options holds every {}th photograph back, and "
                                      "predicts those.",
                                      kEvery);
-        return surface;
+        return acquisition;
     } catch (const Error& error) {
         review.heldOut = std::string("No photograph could be held back: ") + error.what();
         return std::nullopt;
@@ -116,16 +116,20 @@ CaptureReview reviewCapture(const Capture& capture, const AcquireOptions& option
     const int threads = options.normals.threads;
     CaptureReview review;
     review.photographs = listPhotographs(capture, options, acquisition.estimate);
-    const std::optional<Surface> withheld = acquireWithheld(capture, options, progress, review);
+    const std::optional<Acquisition> withheld = acquireWithheld(capture, options, progress, review);
     progress("report", 0);
     const double peak = sampledPeak(capture, threads);
     for (size_t i = 0; i < review.photographs.size(); ++i) {
         progress("report", static_cast<double>(i) / static_cast<double>(review.photographs.size()));
         ReviewedPhotograph& photograph = review.photographs[i];
-        const JudgingPhotographs one{readOne(capture, i, threads), {photograph.light}, peak};
-        photograph.psnr = psnrOf(acquisition.surface, one, threads);
+        JudgingPhotographs one{readOne(capture, i, threads), {}, peak};
+        const auto psnrBy = [&](const Acquisition& judged) {
+            one.lights = placedLights(capture, {i}, {photograph.light}, judged.estimate.nearField);
+            return psnrOf(judged.surface, one, threads);
+        };
+        photograph.psnr = psnrBy(acquisition);
         if (withheld && isHeldOutOfEvery(i, kEvery)) {
-            photograph.heldOutPsnr = psnrOf(*withheld, one, threads);
+            photograph.heldOutPsnr = psnrBy(*withheld);
         }
         const Image picture = pictureOf(one.seen, one.seen.radiance, 0, capture.width, capture.height);
         photograph.thumbnail =

@@ -229,7 +229,9 @@ HeldOutEvaluation evaluateHeldOut(const Capture& capture, AcquireOptions options
         }
         const Surface& surface = evaluation.acquisition.surface;
         const Truth truth = readTruth(capture, rig, heldOut, given, surface, options);
-        const Predictions predicted = predictBySurface(surface, truth.heldOut, truth.heldOutLights, threads);
+        const std::vector<Light> placed =
+            placedLights(capture, heldOut, truth.heldOutLights, evaluation.acquisition.estimate.nearField);
+        const Predictions predicted = predictBySurface(surface, truth.heldOut, placed, threads);
         nacre.add(truth, predicted);
         judgePhotographs(capture, truth, predicted, evaluation);
         for (size_t i = 0; i < others.size(); ++i) {

@@ -17,6 +17,8 @@ const int kBindingHorizon = 5; // sampled 2D array: a layer an azimuth, codes of
 const int kBindingResidual = 6;        // texel buffer of integers: codes of components, see residual.h
 const int kBindingResidualWeights = 7; // texel buffer: ResidualWeights
 
+const int kBindingPlaces = 8; // sampled 2D: xyz the pixel's point in widths of the object, see near_light.h
+
 // Alpha of radiance is cleared to 1 and counts up by what asks for unmeasured directions.
 const float kUnmeasuredAlpha = 1.5f;
 
@@ -30,6 +32,7 @@ const int kConstantOneMaterial = 2;       // direct.frag: all pixels have it and
 const int kConstantPacked = 3;            // direct.frag: normals are packed
 const int kConstantCoverage = 4;          // direct.frag: counts what asks for unmeasured directions
 const int kConstantShadows = 5;           // direct.frag: the height casts shadows
+const int kConstantNear = 6;              // direct.frag: some light of the group is near
 const int kConstantModulated = 0;         // ball*.frag, floor.frag, false_colour.frag: factors and labels
 const int kConstantToneCurve = 1;         // ball*.frag, display.frag
 const int kConstantBallResidual = 2;      // ball.frag: components, in fours; 0: no layer
@@ -40,11 +43,13 @@ const int kConstantHatched = 0;           // display.frag: stripes where somethi
 const int kConstantShow = 1;              // false_colour.frag
 
 struct DirectConstants {
-    vec4 view;                     // xyz unit, towards the viewer; w unused
-    vec4 tableSize;                // xyz texels of the 3D table; w = largest thetaD on its grid
-    int material;                  // index that this pass shades
-    int firstRow;                  // of the surface, in the target's row 0
-    vec4 horizon[kLightsPerGroup]; // horizonLookup of each light, where there are shadows
+    vec4 view;      // xyz unit, towards the viewer; w unused
+    vec4 tableSize; // xyz texels of the 3D table; w = largest thetaD on its grid
+    int material;   // index that this pass shades
+    int firstRow;   // of the surface, in the target's row 0
+    // One a light: 1 / distance in widths of the object, 0 of distant lights; read where some light is near.
+    float nearness[kLightsPerGroup];
+    vec4 horizon[kLightsPerGroup]; // horizonLookup of each light, where there are shadows and no light is near
 };
 
 // Of shaders that draw several pixels at once: codes, side by side in a texel of the target.

@@ -191,6 +191,30 @@ TEST(NearField, TheChainFindsNormalsUnderNearLights)
     EXPECT_FALSE(contains(findings, FindingCode::lightsNear));
 }
 
+TEST(NearField, TheChainRelightsUnderNearLights)
+{
+    const TempFolder folder;
+    SynthOptions options;
+    options.width = options.height = 96;
+    options.lights = 20;
+    options.lightDistance = 3;
+    options.giveLights = true;
+    options.sphereSize = 48; // not looked at
+    writeSynthCapture(folder / "c", makeSynthScene(options), false);
+    AcquireOptions acquiring;
+    acquiring.residual.choice = ResidualChoice::automatic;
+    CaptureOptions far;
+    far.lightDistance = std::numeric_limits<double>::infinity();
+    const Acquisition placed = acquire(loadCapture(folder / "c"), acquiring, kSilent),
+                      distant = acquire(loadCapture(folder / "c", far), acquiring, kSilent);
+    EXPECT_NEAR(placed.surface.lights[7].light.distance, 3, 0.3);
+    EXPECT_FALSE(placed.surface.height.values.empty());
+    EXPECT_EQ(distant.surface.lights[7].light.distance, std::numeric_limits<float>::infinity());
+    EXPECT_TRUE(distant.surface.height.values.empty());
+    // Of lights left out, by the BRDF alone.
+    EXPECT_GT(placed.residual.fit.brdfPsnr, distant.residual.fit.brdfPsnr + 2);
+}
+
 TEST(NearField, DistantLightsStayDistant)
 {
     const TempFolder folder;

@@ -126,8 +126,8 @@ TEST(ViewState, RefusesWhatItDoesNotKnow)
 
 TEST(LightSource, TextIsTheInverse)
 {
-    for (const char* text :
-         {"0.3,0.4,0.87", "captured:7", "off:captured:7", "soft:10:0,0.5,1,1,0.9,0.8", "off:soft:2.5:captured:1"}) {
+    for (const char* text : {"0.3,0.4,0.87", "captured:7", "off:captured:7", "soft:10:0,0.5,1,1,0.9,0.8",
+                             "off:soft:2.5:captured:1", "near:3:0.3,0.4,0.87", "soft:4:near:0.6:0,0,1"}) {
         EXPECT_EQ(textOf(lightSourceFromText(text)), text);
     }
 }
@@ -140,10 +140,26 @@ TEST(LightSource, OffLightsGiveNothing)
     EXPECT_EQ(lights[0].direction, glm::vec3(0, 0, 1));
 }
 
+TEST(LightSource, KeepsItsDistance)
+{
+    const std::vector<CapturedLight> captured = {{"a", {{0, 0, 1}, {1, 1, 1}, 2.5f}}};
+    EXPECT_EQ(lightOf(lightSourceFromText("captured:1"), captured).distance, 2.5f);
+    for (const Light& light : lightsOf(std::vector{lightSourceFromText("soft:5:near:3:0,0,1")}, {})) {
+        EXPECT_EQ(light.distance, 3);
+    }
+    ViewState state;
+    state.lights = {{.captured = 1}};
+    resolveCaptured(state, captured);
+    EXPECT_EQ(state.lights[0].distance, 2.5f);
+    expectError([] { lightSourceFromText("near:0.5:0,0,1"); }, {"near:0.5:0,0,1", "outside the object", "0.6 widths"},
+                Error::kUsage);
+}
+
 TEST(LightSource, RefusesWhatIsNoLight)
 {
     for (const char* text : {"", "1,2", "0,0,0", "0,0,-1", "1,2,3,-1,0,0", "captured:0", "soft:0:0,0,1",
-                             "soft:91:0,0,1", "off:", "soft:5:off:0,0,1"}) {
+                             "soft:91:0,0,1", "off:", "soft:5:off:0,0,1", "near:-1:0,0,1", "near:0:0,0,1",
+                             "near:nan:0,0,1", "near:inf:0,0,1", "near:2", "near:2:captured:1"}) {
         expectError([&] { lightSourceFromText(text); }, {"light "}, Error::kUsage);
     }
     expectError([] { lightOf({.captured = 2}, {}); }, {"no captured light"}, Error::kUsage);
