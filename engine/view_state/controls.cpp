@@ -229,7 +229,8 @@ void showCapturedLight(Session& session, const Choices& choices, size_t index)
     }
     const Light& light = choices.captured[index].light;
     const int number = session.state.surface.empty() ? 0 : static_cast<int>(index) + 1;
-    session.state.lights = {{.captured = number, .direction = light.direction, .irradiance = light.irradiance}};
+    session.state.lights = {
+        {.captured = number, .direction = light.direction, .irradiance = light.irradiance, .distance = light.distance}};
     session.state.environment.clear();
     session.light = 0;
     session.playing = false;
@@ -247,6 +248,19 @@ void dragLight(Session& session, const glm::vec2& moved, float windowHeight)
         const glm::vec2 radii = glm::vec2(moved.x, -moved.y) / (kBallRadiusOfDrag * windowHeight);
         moveLight(session, draggedLight(session.state.lights[session.light].direction, radii));
     }
+}
+
+void pushLight(Session& session, float steps)
+{
+    if (session.light >= session.state.lights.size() || steps == 0) {
+        return;
+    }
+    leavePhotograph(session);
+    LightSource& light = session.state.lights[session.light];
+    const float nearest = static_cast<float>(kNearestLight);
+    const float distance = std::min(light.distance, kFarthestChosen * kDistanceStep) * std::pow(kDistanceStep, steps);
+    light.captured = 0;
+    light.distance = distance > kFarthestChosen * 1.001f ? LightSource().distance : std::max(distance, nearest);
 }
 
 void addLight(Session& session)

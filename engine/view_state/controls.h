@@ -26,6 +26,8 @@ struct Session {
 
 inline constexpr float kExposureStep = 0.25f;     // stops
 inline constexpr float kSecondsAround = 8;        // of the light path
+inline constexpr float kDistanceStep = 1.189207f; // two to the fourth part of one
+inline constexpr float kFarthestChosen = 16;      // widths of the object
 inline constexpr float kBallRadiusOfDrag = 0.25f; // radius of the ball that a right-drag turns, of the window's height
 
 // What a key does. Keys whose thing is not there do nothing but say so.
@@ -46,6 +48,9 @@ void showCapturedLight(Session& session, const Choices& choices, size_t index);
 void pointLight(Session& session, const glm::vec2& disc);
 // Drags in screen pixels, y down, in a window so many pixels high.
 void dragLight(Session& session, const glm::vec2& moved, float windowHeight);
+// The wheel over the light ball: a step of 1 takes the chosen light away by kDistanceStep, steps below 0 bring it
+// nearer. Beyond kFarthestChosen it is distant.
+void pushLight(Session& session, float steps);
 void addLight(Session& session);
 void removeLight(Session& session); // the chosen one, unless nothing would light the scene
 

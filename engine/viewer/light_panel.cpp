@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 #include <imgui.h>
+#include <imgui_internal.h>
 
 #include "engine/view_state/light_ball.h"
 #include "engine/viewer/panels.h"
@@ -67,6 +68,7 @@ void showBall(Session& session, const PanelInputs& inputs, std::vector<PlacedPic
     const ImVec2 at = ImGui::GetCursorScreenPos();
     const BallPlace ball{{at.x + size / 2, at.y + size / 2}, size / 2};
     ImGui::InvisibleButton("ball", {size, size});
+    ImGui::SetItemUsingMouseWheel(); // which else scrolls the panel
     const glm::vec2 cursor(ImGui::GetIO().MousePos.x, ImGui::GetIO().MousePos.y);
     if (ImGui::IsItemActivated()) {
         session.light = lightAt(session, ball, cursor, kMarkerReach * inputs.scale);
@@ -75,7 +77,8 @@ void showBall(Session& session, const PanelInputs& inputs, std::vector<PlacedPic
         session.playing = false;
         pointLight(session, ball.discFromScreen(cursor));
     } else if (ImGui::IsItemHovered()) {
-        ImGui::SetTooltip("Drag: the light goes along");
+        ImGui::SetTooltip("Drag: the light goes along\nWheel: away, nearer");
+        pushLight(session, ImGui::GetIO().MouseWheel);
     }
     const ImVec2 low = ImGui::GetWindowDrawList()->GetClipRectMin(),
                  high = ImGui::GetWindowDrawList()->GetClipRectMax();
@@ -92,8 +95,10 @@ void showList(Session& session)
         ImGui::Checkbox("##on", &light.on);
         ImGui::SameLine();
         const glm::vec3 d = glm::normalize(light.direction);
-        const std::string name = light.captured > 0 ? fmt::format("{}  captured {}", i + 1, light.captured)
-                                                    : fmt::format("{}  {:+.2f} {:+.2f} {:+.2f}", i + 1, d.x, d.y, d.z);
+        const std::string place = std::isfinite(light.distance) ? fmt::format("  at {:.1f}", light.distance) : "";
+        const std::string name = light.captured > 0
+                                     ? fmt::format("{}  captured {}", i + 1, light.captured)
+                                     : fmt::format("{}  {:+.2f} {:+.2f} {:+.2f}{}", i + 1, d.x, d.y, d.z, place);
         if (ImGui::Selectable(name.c_str(), i == session.light)) {
             session.light = i;
         }

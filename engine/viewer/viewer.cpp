@@ -302,7 +302,11 @@ void ViewerWindow::applyState()
     pictures_.apply(session_.state, view_, input_.choices.captured);
     const bool isFew = pictures_.lights().size() <= kFewLights;
     ball_.setPath(isFew ? RenderPath::direct : RenderPath::automatic);
-    ball_.setLights(pictures_.lights());
+    std::vector<Light> distant(pictures_.lights().begin(), pictures_.lights().end());
+    for (Light& light : distant) {
+        light.distance = Light().distance;
+    }
+    ball_.setLights(distant); // markers lie where the ball is brightest
     ball_.setDisplay(pictures_.display());
 }
 

@@ -41,6 +41,27 @@ Session after(std::initializer_list<KeyPress> keys, Session session = opened())
     return session;
 }
 
+TEST(Lights, ThePushedOneComesNearerAndGoesAway)
+{
+    Session session = opened();
+    pushLight(session, 0);
+    EXPECT_EQ(session.state.lights[0].captured, 1);
+    pushLight(session, 1);
+    EXPECT_EQ(session.state.lights[0].distance, LightSource().distance) << "it is distant already";
+    pushLight(session, -1);
+    EXPECT_FLOAT_EQ(session.state.lights[0].distance, kFarthestChosen);
+    EXPECT_EQ(session.state.lights[0].captured, 0);
+    pushLight(session, -4);
+    EXPECT_NEAR(session.state.lights[0].distance, kFarthestChosen / 2, 1e-3);
+    pushLight(session, 4);
+    EXPECT_NEAR(session.state.lights[0].distance, kFarthestChosen, 1e-3);
+    pushLight(session, -100);
+    EXPECT_GE(session.state.lights[0].distance, kNearestLight) << "never inside the object";
+    EXPECT_EQ(lightSourceFromText(textOf(session.state.lights[0])), session.state.lights[0]);
+    pushLight(session, 100);
+    EXPECT_EQ(session.state.lights[0].distance, LightSource().distance);
+}
+
 TEST(KeyTable, EveryActionHasAKeyAndAHelp)
 {
     std::set<Action> bound, helped;
