@@ -24,8 +24,8 @@ struct AcquireOptions {
     size_t byteBudget = ObservationReader::kDefaultByteBudget;
     // Photographs that disagree with the rest, and irradiances that nobody gave.
     bool correctIntensities = true;
-    // A distance of the lights that nobody gave. Normals alone gain by it: surfaces are rendered under distant lights,
-    // which normals that are bent like the photographs fit better.
+    // A distance of the lights that nobody gave. Normals alone surely gain by it: normals that are bent like the
+    // photographs relight about as well.
     bool estimateDistance = false;
     // Light that the object throws on itself, where auto and exemplar find any; the other methods are as published.
     bool removeSelfLight = true;
