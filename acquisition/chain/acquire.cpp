@@ -120,6 +120,7 @@ Surface surfaceOf(const Capture& capture, const PreparedCapture& prepared, Norma
     }
     if (anyIsNear(lights)) { // they are drawn by it
         surface.height = prepared.guess.height;
+        surface.places = pixelPlaces(surface);
     }
     return surface;
 }
@@ -173,7 +174,7 @@ Acquisition acquire(const Capture& capture, const AcquireOptions& options, const
     if (options.residual.choice != ResidualChoice::none) {
         progress("residual", 0);
         clock.enter("residual");
-        const Measurement measurement{prepared, chosen, result.segmentation, options, interpolations};
+        const Measurement measurement{prepared, chosen, result.segmentation, options, interpolations, result.surface};
         const auto remeasure = [&](const Observations& sample, std::span<const size_t> without) {
             return remeasured(measurement, sample, without);
         };

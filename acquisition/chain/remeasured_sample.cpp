@@ -74,13 +74,12 @@ Material coarseMaterial(const BrdfSamples& samples, const InterpolationOptions& 
 Surface remeasured(const Measurement& measurement, Observations sample, std::span<const size_t> without)
 {
     hideLights(without, sample);
-    const std::vector<Light>& lights = measurement.prepared.rig.lights;
     NormalBlock normals;
     std::vector<glm::vec3> factors;
     std::vector<BrdfSamples> samples;
     const auto measure = [&](const Observations& direct) {
         normals = estimateNormals(measurement.prepared, measurement.method, measurement.segmentation, direct);
-        factors = albedoFactors(direct, normals, lights);
+        factors = albedoFactors(direct, normals, measurement.prepared.rig.lights);
         samples = samplesOf(measurement, direct, normals, factors);
     };
     forEachDirect(measurement.prepared, measurement.method, sample, measurement.prepared.threads, measure);
@@ -104,15 +103,18 @@ Surface remeasured(const Measurement& measurement, Observations sample, std::spa
             row.normals.normals[p] = glm::vec3(0);
         }
     }
+    for (const uint32_t pixel : sample.pixels) {
+        if (!measurement.surface.places.empty()) {
+            surface.places.push_back(measurement.surface.places[pixel]);
+        }
+    }
     const LocalLights own = measurement.prepared.localLights().ofPixels(sample.pixels);
     std::iota(sample.pixels.begin(), sample.pixels.end(), 0u);
     refitAlbedo(sample, row.normals, own, row.labels, tables, measurement.options.bake.threads, row.albedo);
     surface.normals = std::move(row.normals);
     surface.labels = std::move(row.labels);
     surface.albedo = std::move(row.albedo);
-    for (const Light& light : lights) {
-        surface.lights.push_back({"", light});
-    }
+    surface.lights = measurement.surface.lights;
     return surface;
 }
 

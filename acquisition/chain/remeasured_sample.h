@@ -15,6 +15,7 @@ struct Measurement {
     const Segmentation& segmentation;
     const AcquireOptions& options;
     const std::vector<InterpolationChoice>& interpolations; // one a material
+    const Surface& surface;                                 // what came of it
 };
 
 // A picture of one row, the sample's pixels, as they are measured from the sample alone and without the lights named:

@@ -60,6 +60,9 @@ float outlineHeight(const NormalMap& normals, const Image& height)
 
 std::vector<glm::vec3> pixelPlaces(const Surface& surface)
 {
+    if (!surface.places.empty()) {
+        return surface.places;
+    }
     const NormalMap& normals = surface.normals;
     const std::vector<uint32_t> pixels = pixelsWithNormal(normals);
     const ObjectExtent extent = extentOf(pixels, normals.width);

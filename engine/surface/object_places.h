@@ -21,7 +21,7 @@ float outlineHeight(const NormalMap& normals, const Image& height);
 
 // Where each pixel's point lies, in widths of the object, which is all that has a normal: from the middle of its
 // bounding box on the plane of its outline, x right, y up, z towards the camera. On that plane where the surface has no
-// height.
+// height. The surface's places where it has them.
 std::vector<glm::vec3> pixelPlaces(const Surface& surface);
 
 bool anyIsNear(std::span<const Light> lights);
