@@ -98,11 +98,9 @@ PreparedCapture prepareCapture(const Capture& capture, const AcquireOptions& opt
 NormalEstimate estimateCaptureNormals(const Capture& capture, const AcquireOptions& options, const Progress& progress)
 {
     StageClock clock;
-    AcquireOptions seeking = options;
-    seeking.estimateDistance = true;
-    PreparedCapture prepared = prepareCapture(capture, seeking, clock, progress);
+    PreparedCapture prepared = prepareCapture(capture, options, clock, progress);
     const Segmentation whole = oneMaterial(capture);
-    const ChosenMethod chosen = chooseMethod(prepared, whole, seeking);
+    const ChosenMethod chosen = chooseMethod(prepared, whole, options);
     NormalEstimate estimate = startEstimate(prepared, chosen);
     BlockWalk walk(prepared.blocks, clock, progress, "normals");
     while (const Observations* seen = walk.next()) {

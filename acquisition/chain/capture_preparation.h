@@ -8,7 +8,7 @@ namespace nacre {
 PreparedCapture prepareCapture(const Capture& capture, const AcquireOptions& options, StageClock& clock,
                                const Progress& progress);
 
-// Photographs -> lights -> normals, of an object of one material. options.estimateDistance is taken to be on.
+// Photographs -> lights -> normals, of an object of one material.
 NormalEstimate estimateCaptureNormals(const Capture& capture, const AcquireOptions& options, const Progress& progress);
 
 } // namespace nacre

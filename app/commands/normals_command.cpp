@@ -38,7 +38,8 @@ void checkOutputs(const NormalsArguments& arguments)
 void runNormals(NormalsArguments& arguments)
 {
     const CaptureArguments& common = arguments.common;
-    const AcquireOptions options = common.stageOptions();
+    AcquireOptions options = common.stageOptions();
+    options.estimateDistance = true;
     checkOutputs(arguments);
     const Capture capture = arguments.common.load();
     const NormalEstimate result = estimateCaptureNormals(capture, options, progressLine(common.quiet));

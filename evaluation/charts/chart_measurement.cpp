@@ -132,6 +132,7 @@ NormalRow measureNormalSetting(const Capture& capture, AcquireOptions options, c
     row.hasTruth = !capture.truthNormals.empty();
     options.normals.method = setting.method;
     options.lights.given = setting.lightsGiven;
+    options.estimateDistance = true;
     try {
         if (row.hasTruth) {
             const NormalEstimate estimate = estimateCaptureNormals(capture, options, kSilent);

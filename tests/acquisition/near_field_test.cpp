@@ -156,9 +156,16 @@ TEST(NearField, ASphereThroughALensHasItsHeight)
     EXPECT_GT(spreadOf(without), 0.01);
 }
 
+AcquireOptions seekingDistance()
+{
+    AcquireOptions options;
+    options.estimateDistance = true;
+    return options;
+}
+
 double meanError(const Capture& capture, std::vector<Finding>& findings)
 {
-    const NormalEstimate estimate = estimateCaptureNormals(capture, {}, kSilent);
+    const NormalEstimate estimate = estimateCaptureNormals(capture, seekingDistance(), kSilent);
     findings = estimate.report.findings;
     const NormalMap truth = windowedNormals(loadTrueNormals(capture.truthNormals), capture, capture.truthNormals);
     return angularError(estimate.normals, truth, capture.mask).mean;
@@ -230,7 +237,7 @@ TEST(NearField, DistantLightsStayDistant)
     EXPECT_FALSE(nearFieldOf(harmless, {0}, {capture.lights[0]}));
     harmless.lightDistance = 5;
     EXPECT_TRUE(nearFieldOf(harmless, {0}, {capture.lights[0]}));
-    const NormalEstimate estimate = estimateCaptureNormals(capture, {}, kSilent);
+    const NormalEstimate estimate = estimateCaptureNormals(capture, seekingDistance(), kSilent);
     EXPECT_FALSE(contains(estimate.report.findings, FindingCode::lightsPlaced));
 }
 
