@@ -15,8 +15,6 @@ namespace {
 
 constexpr size_t kFewestToHoldOut = 9;
 constexpr size_t kHeldOutEvery = 6, kFirstHeldOut = 3;
-// What is left after holding out has to span space well.
-constexpr double kWorstSplitCondition = 30;
 // A cast shadow or a highlight costs no more than this, in roots over that of the pixel's bright level.
 constexpr float kJuryTruncation = 0.16f;
 constexpr int kJuryRounds = 2;
@@ -50,7 +48,7 @@ std::optional<LightSplit> splitLights(const std::vector<Light>& lights)
         (isHeldOut ? split.heldOut : split.kept).push_back(i);
         (isHeldOut ? split.heldOutLights : split.keptLights).push_back(lights[i]);
     }
-    if (lights.size() < kFewestToHoldOut || conditionOf(split.keptLights) > kWorstSplitCondition) {
+    if (lights.size() < kFewestToHoldOut || conditionOf(split.keptLights) > kWorstSpan) {
         return {};
     }
     return split;

@@ -11,6 +11,9 @@ struct LightSplit {
     std::vector<Light> keptLights, heldOutLights;
 };
 
+// The worst condition (lights.h) of lights that span space well enough to match exemplars.
+inline constexpr double kWorstSpan = 30;
+
 // Every sixth light is held out; none where they are too few, or where those that are left lie too nearly in a plane.
 std::optional<LightSplit> splitLights(const std::vector<Light>& lights);
 

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "acquisition/exemplar/exemplar_estimator.h"
+#include "acquisition/lights/lights.h"
 
 namespace nacre {
 
@@ -18,6 +19,9 @@ constexpr NormalMethod kLambertian[] = {NormalMethod::leastSquares, NormalMethod
 // A difference of the mean errors below so many standard errors, or so small a share, is a tie.
 constexpr double kTieErrors = 2;
 constexpr double kTieShare = 0.02;
+// Fewer lights, none of which can be held out to judge, are Lambert's; from here on exemplars have two thirds of the
+// error of consensus (docs/results.md).
+constexpr size_t kFewestForExemplars = 6;
 // Beyond it more than half of what is predicted is as wrong as counts: the errors no longer tell methods apart.
 constexpr double kUnexplained = 0.5;
 
@@ -72,12 +76,15 @@ NormalEstimator chosenEstimator(const Intensities& sample, const std::vector<Lig
 {
     const std::optional<LightSplit> split = splitLights(lights);
     if (!split || sample.pixelCount() == 0) {
-        report.method = NormalMethod::consensus;
+        const bool areEnough =
+            sample.pixelCount() > 0 && lights.size() >= kFewestForExemplars && conditionOf(lights) <= kWorstSpan;
+        report.method = areEnough ? NormalMethod::exemplar : NormalMethod::consensus;
         report.findings.push_back(
             {FindingCode::methodChosen,
-             fmt::format("auto: consensus, since {} lights are too few, or too nearly in one plane, to hold any out",
-                         lights.size())});
-        return makeConsensusEstimator(lights, options);
+             fmt::format("auto: {}, since {} lights are too few, or too nearly in one plane, to hold any out",
+                         nameOf(report.method), lights.size())});
+        return areEnough ? makeExemplarEstimator(sample, lights, options, report.findings)
+                         : makeConsensusEstimator(lights, options);
     }
     const Jury jury = makeJury(sample, *split, options.threads);
     std::string said;
