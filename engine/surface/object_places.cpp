@@ -70,8 +70,9 @@ std::vector<glm::vec3> pixelPlaces(const Surface& surface)
     const float plane = hasHeight ? outlineHeight(normals, surface.height) : 0.0f;
     std::vector<glm::vec3> places(normals.normals.size(), glm::vec3(0));
     for (const uint32_t pixel : pixels) {
-        const double x = pixel % static_cast<uint32_t>(normals.width) + 0.5,
-                     y = pixel / static_cast<uint32_t>(normals.width) + 0.5;
+        const uint32_t column = pixel % static_cast<uint32_t>(normals.width),
+                       row = pixel / static_cast<uint32_t>(normals.width);
+        const double x = column + 0.5, y = row + 0.5;
         const double z = hasHeight ? surface.height.values[pixel] - plane : 0;
         places[pixel] = glm::vec3(glm::dvec3(x - extent.middle.x, extent.middle.y - y, z) / extent.width);
     }

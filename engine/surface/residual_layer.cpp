@@ -72,9 +72,9 @@ ResidualFrame residualFrame(const ResidualLayer& layer, std::span<const Light> l
     if (layer.empty() || use == ResidualUse::off) {
         return frame;
     }
-    const ResidualLights splines(layer);
+    const ResidualLights captured(layer);
     for (Light& light : frame.base) {
-        const ResidualLight at = splines.at(light.direction);
+        const ResidualLight at = captured.at(light.direction);
         addLight(layer, at, light, frame.weights);
         light.irradiance *= use == ResidualUse::alone ? 0 : at.trust;
     }

@@ -171,16 +171,23 @@ double meanError(const Capture& capture, std::vector<Finding>& findings)
     return angularError(estimate.normals, truth, capture.mask).mean;
 }
 
-TEST(NearField, TheChainFindsNormalsUnderNearLights)
+// Lamps at three widths, whose places are given.
+SynthOptions nearCapture()
 {
-    const TempFolder folder;
     SynthOptions options;
     options.width = options.height = 96;
     options.lights = 20;
     options.lightDistance = 3;
-    options.fieldOfView = 20;
     options.giveLights = true;
     options.sphereSize = 48; // not looked at
+    return options;
+}
+
+TEST(NearField, TheChainFindsNormalsUnderNearLights)
+{
+    const TempFolder folder;
+    SynthOptions options = nearCapture();
+    options.fieldOfView = 20;
     writeSynthCapture(folder / "c", makeSynthScene(options), false);
     const Capture given = loadCapture(folder / "c");
     CaptureOptions far;
@@ -201,13 +208,7 @@ TEST(NearField, TheChainFindsNormalsUnderNearLights)
 TEST(NearField, TheChainRelightsUnderNearLights)
 {
     const TempFolder folder;
-    SynthOptions options;
-    options.width = options.height = 96;
-    options.lights = 20;
-    options.lightDistance = 3;
-    options.giveLights = true;
-    options.sphereSize = 48; // not looked at
-    writeSynthCapture(folder / "c", makeSynthScene(options), false);
+    writeSynthCapture(folder / "c", makeSynthScene(nearCapture()), false);
     AcquireOptions acquiring;
     acquiring.residual.choice = ResidualChoice::automatic;
     CaptureOptions far;
