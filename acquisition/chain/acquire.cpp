@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "acquisition/chain/cast_shadow_choice.h"
 #include "acquisition/chain/material_albedo.h"
 #include "acquisition/chain/material_models.h"
 #include "acquisition/chain/material_samples.h"
@@ -125,6 +126,34 @@ Surface surfaceOf(const Capture& capture, const PreparedCapture& prepared, Norma
     return surface;
 }
 
+// Cast shadows and the residual layer: what lights left out say for.
+void explainLeftOut(const Measurement& measurement, ObservationBlocks& blocks, StageClock& clock,
+                    const Progress& progress, Acquisition& result)
+{
+    const AcquireOptions& options = measurement.options;
+    LeftOut leftOut =
+        leaveOut(result.surface, blocks, [&](const Observations& sample, std::span<const size_t> without) {
+            return remeasured(measurement, sample, without);
+        });
+    if (options.castShadows) {
+        progress("shadows", 0);
+        clock.enter("shadows");
+        CastShadows shadows = findCastShadows(measurement, blocks, std::move(leftOut), options.residual.choice);
+        result.shadows = std::move(shadows.report);
+        leftOut = std::move(shadows.leftOut);
+        if (result.shadows.areKept) {
+            result.surface.height = std::move(shadows.height);
+            result.surface.horizon = std::move(shadows.horizon);
+            result.surface.castsShadows = true;
+        }
+    }
+    progress("residual", 0);
+    clock.enter("residual");
+    EstimatedResidual residual = estimateResidual(result.surface, options.residual, leftOut, blocks);
+    result.surface.residual = std::move(residual.layer);
+    result.residual = std::move(residual.report);
+}
+
 } // namespace
 
 NormalsAndSamples estimateAndSample(PreparedCapture& prepared, const Capture& capture, const Segmentation& segmentation,
@@ -171,16 +200,11 @@ Acquisition acquire(const Capture& capture, const AcquireOptions& options, const
     }
     result.surface = surfaceOf(capture, prepared, std::move(estimate.normals), result.segmentation.labels,
                                std::move(albedo), std::move(reduced.materials));
-    if (options.residual.choice != ResidualChoice::none) {
-        progress("residual", 0);
-        clock.enter("residual");
+    if (options.residual.choice != ResidualChoice::none || options.castShadows) {
+        progress("left out", 0);
+        clock.enter("left out");
         const Measurement measurement{prepared, chosen, result.segmentation, options, interpolations, result.surface};
-        const auto remeasure = [&](const Observations& sample, std::span<const size_t> without) {
-            return remeasured(measurement, sample, without);
-        };
-        EstimatedResidual residual = estimateResidual(result.surface, options.residual, prepared.blocks, remeasure);
-        result.surface.residual = std::move(residual.layer);
-        result.residual = std::move(residual.report);
+        explainLeftOut(measurement, prepared.blocks, clock, progress, result);
     }
     result.samples = gathered.counts;
     result.estimate = std::move(estimate);

@@ -3,6 +3,7 @@
 #include "acquisition/brdf/model_ladder.h"
 #include "acquisition/chain/acquire_options.h"
 #include "acquisition/chain/capture_preparation.h"
+#include "acquisition/chain/cast_shadow_report.h"
 #include "acquisition/chain/material_samples.h"
 #include "acquisition/residual/residual_estimate.h"
 #include "acquisition/segmentation/segmentation.h"
@@ -22,6 +23,7 @@ struct Acquisition {
     Segmentation segmentation;
     SampleCounts samples;          // of all materials' inner pixels
     std::vector<MaterialFit> fits; // one a material
+    CastShadowReport shadows;
     ResidualReport residual;
 };
 
@@ -34,9 +36,9 @@ struct NormalsAndSamples {
 NormalsAndSamples estimateAndSample(PreparedCapture& prepared, const Capture& capture, const Segmentation& segmentation,
                                     const AcquireOptions& options, StageClock& clock, const Progress& progress);
 
-// Photographs -> lights -> normals -> materials -> samples -> BRDF tables -> albedo factors -> residual layer: the
-// whole chain. A capture that fits into options.byteBudget is read once, a larger one once more for each of its later
-// stages.
+// Photographs -> lights -> normals -> materials -> samples -> BRDF tables -> albedo factors -> cast shadows ->
+// residual layer: the whole chain. A capture that fits into options.byteBudget is read once, a larger one once more for
+// each of its later stages.
 Acquisition acquire(const Capture& capture, const AcquireOptions& options, const Progress& progress);
 
 } // namespace nacre

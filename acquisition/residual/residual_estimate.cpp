@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include <fmt/format.h>
 
+#include "acquisition/residual/left_out.h"
 #include "acquisition/residual/light_interpolation.h"
 #include "acquisition/residual/residual_choice.h"
 #include "acquisition/residual/residual_rows.h"
@@ -102,95 +102,10 @@ void ResidualEncoder::encode(const Observations& block, int threads)
     });
 }
 
-constexpr size_t kFewestResidualLights = 6; // three for the plane through them, as many again to judge it
-constexpr double kLeastHullArea = 1e-3;
 constexpr size_t kMostUnasked = 40; // components: more cost a frame more than the last of them give (docs/results.md)
 constexpr size_t kSmallestBall = 64;
 constexpr double kBallLoss = kComponentsLoss / 5;
 constexpr size_t kMostBallBytes = size_t{64} << 20;
-
-// The cost of judging grows with the square of the lights.
-size_t samplePixels(size_t lights)
-{
-    return std::clamp<size_t>(size_t{25'000'000} / (lights * lights), 512, 2048);
-}
-
-std::string whyNoLayer(const std::vector<Light>& lights, const std::vector<glm::vec3>& nodes)
-{
-    if (lights.size() < kFewestResidualLights) {
-        return fmt::format("{} lights are too few to guess between them", lights.size());
-    }
-    return LightHull(lightPlanePoints(nodes)).area() < kLeastHullArea ? "the lights lie on a line" : "";
-}
-
-// An even sample of the shaded pixels.
-Observations sampleOf(const Surface& surface, ObservationBlocks& blocks, size_t shaded, size_t most)
-{
-    const size_t stride = std::max<size_t>(1, (shaded + most - 1) / most);
-    size_t seen = 0;
-    Observations sample;
-    while (const Observations* block = blocks.next()) {
-        sample.lightCount = block->lightCount;
-        sample.width = block->width;
-        for (const size_t place : shadedPlaces(*block, surface)) {
-            if (seen++ % stride == 0) {
-                const auto radiance = block->radianceOf(place);
-                const auto saturated = block->saturatedOf(place);
-                sample.pixels.push_back(block->pixels[place]);
-                sample.radiance.insert(sample.radiance.end(), radiance.begin(), radiance.end());
-                sample.saturated.insert(sample.saturated.end(), saturated.begin(), saturated.end());
-            }
-        }
-    }
-    return sample;
-}
-
-std::vector<size_t> allPlaces(const Observations& sample)
-{
-    std::vector<size_t> places(sample.pixels.size());
-    std::iota(places.begin(), places.end(), size_t{0});
-    return places;
-}
-
-constexpr size_t kFewLights = 12; // each of which is left out alone
-constexpr size_t kFolds = 6;      // of more lights: without a sixth of them BRDF and normals are nearly the same
-
-// Pixels that cannot be measured without some lights keep what the whole surface says of them.
-UnseenRows unseenRows(const Observations& sample, const ResidualRows& rows, const Remeasure& remeasure)
-{
-    const size_t lights = sample.lightCount, folds = lights <= kFewLights ? lights : kFolds;
-    UnseenRows unseen;
-    for (size_t fold = 0; fold < folds; ++fold) {
-        std::vector<size_t> without;
-        for (size_t light = fold; light < lights; light += folds) {
-            without.push_back(light);
-        }
-        const Surface surface = remeasure(sample, without);
-        std::vector<uint32_t> pixels(sample.pixels.size());
-        std::iota(pixels.begin(), pixels.end(), 0u);
-        Eigen::MatrixXf predicted = predictedRows(LightBalls(surface, 0, 1), pixels, lights);
-        for (size_t p = 0; p < pixels.size(); ++p) {
-            if (!isShaded(surface, p)) {
-                const auto row = static_cast<Eigen::Index>(3 * p);
-                predicted.middleRows<3>(row) = rows.predicted.middleRows<3>(row);
-            }
-        }
-        unseen.folds.push_back(std::move(without));
-        unseen.predicted.push_back(std::move(predicted));
-    }
-    return unseen;
-}
-
-float brightnessOf(const ResidualRows& rows, const std::vector<Light>& lights)
-{
-    std::vector<float> values;
-    for (Eigen::Index row = 0; row < rows.observed.rows(); ++row) {
-        for (size_t i = 0; i < lights.size(); ++i) {
-            values.push_back(rows.observed(row, static_cast<Eigen::Index>(i)) * lights[i].irradiance[row % 3]);
-        }
-    }
-    return peakOf(values);
-}
 
 // Far fewer texels than there are pixels, in bounded memory.
 bool areQuick(const Surface& surface, size_t size, size_t pixels)
@@ -220,44 +135,27 @@ size_t bytesPerComponent(size_t pixels, size_t lights)
     return pixels + lights * sizeof(glm::vec3);
 }
 
-size_t shadedPixels(const Surface& surface)
-{
-    size_t shaded = 0;
-    for (size_t i = 0; i < surface.labels.size(); ++i) {
-        shaded += isShaded(surface, i);
-    }
-    return shaded;
-}
-
 } // namespace
 
-EstimatedResidual estimateResidual(const Surface& surface, const ResidualOptions& options, ObservationBlocks& blocks,
-                                   const Remeasure& remeasure)
+EstimatedResidual estimateResidual(const Surface& surface, const ResidualOptions& options, const LeftOut& leftOut,
+                                   ObservationBlocks& blocks)
 {
     EstimatedResidual result;
     ResidualReport& report = result.report;
     report.choice = options.choice;
-    std::vector<Light> lights;
-    std::vector<glm::vec3> nodes;
-    for (const CapturedLight& light : surface.lights) {
-        lights.push_back(light.light);
-        nodes.push_back(light.light.direction);
-    }
-    report.whyNot = whyNoLayer(lights, nodes);
+    report.whyNot = leftOut.whyNot;
     if (!report.whyNot.empty() && options.choice == ResidualChoice::difference) {
         throw Error("", "no residual layer can be made: " + report.whyNot,
                     fmt::format("{} lights or more, spread over a solid angle", kFewestResidualLights));
     }
-    const size_t pixels = shadedPixels(surface);
-    if (!report.whyNot.empty() || options.choice == ResidualChoice::none || pixels == 0) {
+    if (!report.whyNot.empty() || options.choice == ResidualChoice::none || leftOut.shadedPixels == 0) {
         return result;
     }
-    const Observations sample = sampleOf(surface, blocks, pixels, samplePixels(lights.size()));
-    const ResidualRows rows = residualRows(sample, allPlaces(sample), surface, LightBalls(surface, 0, 1));
-    const UnseenRows unseen = unseenRows(sample, rows, remeasure);
-    const ResidualJudge judge(rows, lights, brightnessOf(rows, lights));
-    report.fit = chooseResidualFit(rows, unseen, nodes, judge, options.choice);
-    const size_t each = bytesPerComponent(pixels, lights.size());
+    const std::vector<glm::vec3> nodes = lightDirections(surface);
+    const ResidualRows& rows = leftOut.rows;
+    const ResidualJudge judge = judgeOf(surface, rows);
+    report.fit = chooseResidualFit(rows, leftOut.unseen, nodes, judge, options.choice);
+    const size_t each = bytesPerComponent(leftOut.shadedPixels, nodes.size());
     const size_t most = options.toleranceDecibels > 0 ? kMostResidualComponents : kMostUnasked;
     const size_t afforded = options.budgetBytes > 0 ? options.budgetBytes / each : most;
     if (report.fit.isKept && afforded == 0) {
@@ -270,7 +168,7 @@ EstimatedResidual estimateResidual(const Surface& surface, const ResidualOptions
     const Eigen::MatrixXf basis = chooseComponents(rows, judge, options.toleranceDecibels,
                                                    std::min<size_t>(afforded, kMostResidualComponents), report);
     report.bytes = each * static_cast<size_t>(report.components);
-    const LightBalls balls = quickBalls(surface, rows, judge, report.fit, pixels, options.threads);
+    const LightBalls balls = quickBalls(surface, rows, judge, report.fit, leftOut.shadedPixels, options.threads);
     ResidualEncoder encoder(surface, balls, nodes, report.fit, rows, basis);
     while (const Observations* block = blocks.next()) {
         encoder.encode(*block, options.threads);

@@ -1,7 +1,5 @@
 #pragma once
 #include <cstddef>
-#include <functional>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -46,12 +44,11 @@ struct EstimatedResidual {
     ResidualReport report;
 };
 
-// A picture of one row, the sample's pixels, as they would be measured without the lights named.
-using Remeasure = std::function<Surface(const Observations& sample, std::span<const size_t> without)>;
+struct LeftOut; // left_out.h
 
-// The layer of a finished surface, whose lights are the blocks'. Walks the blocks twice. Throws Error (data) where a
-// layer is insisted on and the lights are fewer than six or lie on a line.
-EstimatedResidual estimateResidual(const Surface& surface, const ResidualOptions& options, ObservationBlocks& blocks,
-                                   const Remeasure& remeasure);
+// The layer of a finished surface, whose lights are the blocks', of which `leftOut` is a sample. Walks the blocks once.
+// Throws Error (data) where a layer is insisted on and the lights are fewer than six or lie on a line.
+EstimatedResidual estimateResidual(const Surface& surface, const ResidualOptions& options, const LeftOut& leftOut,
+                                   ObservationBlocks& blocks);
 
 } // namespace nacre

@@ -45,6 +45,12 @@ LightBalls::LightBalls(const Surface& surface, int size, int threads)
     : surface_(surface), size_(size), places_(hasNearLight(surface) ? pixelPlaces(surface) : std::vector<glm::vec3>())
 {
     assert(size == 0 || places_.empty());
+    assert(surface.horizon.empty() || places_.empty());
+    if (!surface.horizon.empty()) {
+        for (const CapturedLight& light : surface.lights) {
+            lookups_.push_back(horizonLookup(light.light.direction, surface.horizon.azimuths));
+        }
+    }
     if (size > 0) {
         for (const Material& material : surface.materials) {
             materials_.push_back(ballsOf(surface, material.table, size, threads));
@@ -64,6 +70,18 @@ void LightBalls::addTexel(const float* texel, float share, const glm::vec3& albe
 }
 
 void LightBalls::predict(size_t pixel, std::span<float> predicted) const
+{
+    predictLit(pixel, predicted);
+    const size_t lights = surface_.lights.size();
+    for (size_t i = 0; i < lookups_.size(); ++i) {
+        const float visible = visibilityOf(surface_.horizon, lookups_[i], pixel);
+        for (size_t c = 0; c < 3; ++c) {
+            predicted[c * lights + i] *= visible;
+        }
+    }
+}
+
+void LightBalls::predictLit(size_t pixel, std::span<float> predicted) const
 {
     const size_t lights = surface_.lights.size();
     std::fill(predicted.begin(), predicted.end(), 0.0f);

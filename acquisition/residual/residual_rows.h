@@ -21,15 +21,18 @@ public:
     // referred to.
     LightBalls(const Surface& surface, int size, int threads);
 
-    // Radiance over irradiance (at the object's middle) of a shaded pixel under all lights: [channel * lights + light].
+    // Radiance over irradiance (at the object's middle) of a shaded pixel under all lights, those that the surface's
+    // horizon hides included: [channel * lights + light].
     void predict(size_t pixel, std::span<float> predicted) const;
 
 private:
+    void predictLit(size_t pixel, std::span<float> predicted) const; // as if nothing cast a shadow
     void addTexel(const float* texel, float share, const glm::vec3& albedo, std::span<float> predicted) const;
 
     const Surface& surface_;
     int size_;
     std::vector<glm::vec3> places_;             // of the pixels, where a light is near
+    std::vector<glm::vec4> lookups_;            // horizonLookup of each light, where the surface has a horizon
     std::vector<std::vector<float>> materials_; // [texel * 3 * lights + channel * lights + light]
 };
 

@@ -82,6 +82,12 @@ LadderOptions LadderArguments::options(int threads) const
 void ResidualArguments::addTo(CLI::App& command)
 {
     command
+        .add_option("--cast-shadows", shadows,
+                    "Shadows of the object on itself: auto finds a height that casts them and keeps it where it "
+                    "predicts held-out photographs better, off does not")
+        ->option_text("auto|off [" + shadows + "]")
+        ->capture_default_str();
+    command
         .add_option("--residual", choice,
                     "Residual layer, for what the BRDF cannot explain on this object: auto keeps it where it predicts "
                     "held-out photographs better, difference always")
@@ -103,6 +109,27 @@ ResidualOptions ResidualArguments::options(const LadderOptions& ladder) const
     return options;
 }
 
+bool ResidualArguments::castShadows() const
+{
+    if (shadows != "auto" && shadows != "off") {
+        throw Error("", "--cast-shadows " + shadows + " is no choice", "auto or off", Error::kUsage);
+    }
+    return shadows == "auto";
+}
+
+std::string describe(const CastShadowReport& report)
+{
+    if (!report.whyNot.empty() || report.castShare == 0) {
+        return report.whyNot.empty() ? "" : fmt::format("shadows      none: {}\n", report.whyNot);
+    }
+    const std::string judged =
+        fmt::format("photographs left out: {:.1f} dB without, {:.1f} dB with the shadows that a height casts",
+                    report.psnr, report.shadowedPsnr);
+    return fmt::format("shadows      {:.1f} % of what faces a light lies in one; {}{}\n", 100 * report.castShare,
+                       judged,
+                       report.areKept ? "" : fmt::format(": not kept, {:.1f} dB more are asked for", kShadowMargin));
+}
+
 std::string describe(const ResidualReport& report)
 {
     if (report.choice == ResidualChoice::none) {
@@ -122,6 +149,15 @@ std::string describe(const ResidualReport& report)
         "BRDF by {:.0f} %\n",
         report.components, static_cast<double>(report.bytes) / 1024, report.capturedPsnr, judged,
         100 * report.fit.trust);
+}
+
+nlohmann::json documentOf(const CastShadowReport& report)
+{
+    return {{"kept", report.areKept},
+            {"castShare", report.castShare},
+            {"leftOutWithout", report.psnr},
+            {"leftOutWith", report.shadowedPsnr},
+            {"whyNot", report.whyNot}};
 }
 
 nlohmann::json documentOf(const ResidualReport& report)

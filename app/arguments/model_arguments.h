@@ -5,6 +5,7 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "acquisition/brdf/model_ladder.h"
+#include "acquisition/chain/cast_shadow_report.h"
 #include "acquisition/residual/residual_estimate.h"
 
 namespace nacre {
@@ -27,17 +28,21 @@ struct LadderArguments {
     LadderOptions options(int threads) const; // throws usage Errors
 };
 
-// The layer for what the BRDF cannot explain: --residual.
+// What else explains photographs: --cast-shadows, and the layer for what is left, --residual.
 struct ResidualArguments {
     std::string choice = "auto";
+    std::string shadows = "auto";
 
     void addTo(CLI::App& command);
     // Its size follows what is asked of the BRDF's. Throws usage Errors.
     ResidualOptions options(const LadderOptions& ladder) const;
+    bool castShadows() const; // throws usage Errors
 };
 
-// One line for the user; empty where no layer was thought of.
+// One line for the user; empty where none was thought of.
+std::string describe(const CastShadowReport& report);
 std::string describe(const ResidualReport& report);
+nlohmann::json documentOf(const CastShadowReport& report);
 nlohmann::json documentOf(const ResidualReport& report);
 
 } // namespace nacre

@@ -38,6 +38,7 @@ AcquireOptions optionsOf(const AcquireArguments& arguments)
     options.segment = segmentOptionsFrom(arguments.segment);
     options.ladder = arguments.ladder.options(options.interpolation.threads);
     options.residual = arguments.residual.options(options.ladder);
+    options.castShadows = arguments.residual.castShadows();
     options.bake.range = tableRangeFromName(arguments.range);
     if (arguments.coordinates != "half-difference" && arguments.coordinates != "natural") {
         throw Error("", fmt::format("--coordinates {} are not known", arguments.coordinates),

@@ -114,7 +114,8 @@ std::string describe(const HeldOutEvaluation& evaluation, const std::optional<An
                             normals->mean, normals->median, normals->percentile95, normals->pixels, normals->missing);
     }
     return text + fmt::format("model        {} bytes\n", evaluation.modelBytes) +
-           describe(evaluation.acquisition.residual) + describe(evaluation.acquisition.estimate.times);
+           describe(evaluation.acquisition.shadows) + describe(evaluation.acquisition.residual) +
+           describe(evaluation.acquisition.estimate.times);
 }
 
 nlohmann::ordered_json documentOf(const HeldOutEvaluation& evaluation, const std::optional<AngularError>& normals)
@@ -123,6 +124,7 @@ nlohmann::ordered_json documentOf(const HeldOutEvaluation& evaluation, const std
                                     {"photographsHeldOut", evaluation.photographs},
                                     {"worstPhotograph", evaluation.photographs[evaluation.worst]},
                                     {"modelBytes", evaluation.modelBytes},
+                                    {"shadows", documentOf(evaluation.acquisition.shadows)},
                                     {"residual", documentOf(evaluation.acquisition.residual)},
                                     {"acquisitionSeconds", evaluation.seconds}};
     for (const StageTime& time : evaluation.acquisition.estimate.times) {
@@ -237,6 +239,7 @@ void runEvaluate(EvaluateArguments& arguments)
     options.interpolation = arguments.interpolation.options(options.interpolation.threads);
     options.ladder = arguments.ladder.options(options.interpolation.threads);
     options.residual = arguments.residual.options(options.ladder);
+    options.castShadows = arguments.residual.castShadows();
     const bool each = arguments.holdOut == kEach;
     options.lights.heldOutEvery = each ? 0 : holdOutEvery(arguments.holdOut);
     checkOutputs(arguments);

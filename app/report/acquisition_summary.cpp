@@ -242,9 +242,9 @@ std::string describeBrdf(const Acquisition& acquisition)
     return describeMaterials(acquisition) +
            fmt::format("observations {} used; left out: {} in shadow or grazing, {} saturated, {} of pixels without a "
                        "normal, {} to thin them out\n"
-                       "{}{}scale        {}\n",
+                       "{}{}{}scale        {}\n",
                        counts.used, counts.shadowed, counts.saturated, counts.withoutNormal, counts.thinned,
-                       describeTables(acquisition), describe(acquisition.residual),
+                       describeTables(acquisition), describe(acquisition.shadows), describe(acquisition.residual),
                        acquisition.surface.scale == RadianceScale::absolute ? "absolute (1/sr)" : "relative");
 }
 
@@ -352,6 +352,7 @@ Json summaryOf(const Capture& capture, const Acquisition& acquisition)
                                      {"tableSize", {own.size.x, own.size.y, own.size.z}},
                                      {"tableCoveredShare", coveredShare(own)}});
     }
+    json["shadows"] = documentOf(acquisition.shadows);
     json["residual"] = documentOf(acquisition.residual);
     json["labels"] = acquisition.segmentation.source;
     json["scale"] = acquisition.surface.scale == RadianceScale::absolute ? "absolute" : "relative";

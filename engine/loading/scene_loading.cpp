@@ -92,7 +92,8 @@ Surface drawnSurfaceOf(const SceneDescription& scene, Surface measured, const Co
         throw Error(scene.surface, "is a target without a material",
                     "a material to put onto it, or another surface's onto it");
     }
-    if (scene.shadows.value_or(false)) { // before pixels are repeated, which would make stairs of the height
+    if (scene.shadows.value_or(
+            measured.castsShadows)) { // before pixels are repeated, which would make stairs of the height
         castShadows(measured, scene.onto.empty() ? scene.surface : scene.onto);
     }
     if (scene.size) {

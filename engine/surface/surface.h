@@ -48,8 +48,9 @@ struct Surface {
     // One channel: pixels of the map towards the viewer, up to a constant for each connected piece, 0 where there is no
     // normal. Empty: not known.
     Image height;
-    ResidualLayer residual; // of the captured photographs; empty: the BRDF is all
-    HorizonMap horizon;     // of the height, for cast shadows; empty: lights reach all that faces them. In no file
+    bool castsShadows = false; // the height was found to explain the photographs' shadows: it casts them unless unasked
+    ResidualLayer residual;    // of the captured photographs; empty: the BRDF is all
+    HorizonMap horizon;        // of the height, for cast shadows; empty: lights reach all that faces them. In no file
     std::vector<glm::vec3> places; // pixelPlaces, where they are known; in no file
     std::vector<CapturedLight> lights;
     RadianceScale scale = RadianceScale::relative;

@@ -94,6 +94,9 @@ nlohmann::json descriptionOf(const Surface& surface)
     if (!surface.height.values.empty()) {
         json["heights"] = "height.exr"; // "height" is the picture's
     }
+    if (surface.castsShadows) {
+        json["shadows"] = true;
+    }
     if (!surface.parts.empty()) {
         json["parts"] = surface.parts;
     }
@@ -295,6 +298,12 @@ Surface surfaceOf(const JsonNode& root)
     }
     if (const auto heights = root.find("heights")) {
         surface.height = loadBeside(*heights, surface, 1);
+    }
+    if (const auto shadows = root.find("shadows")) {
+        surface.castsShadows = shadows->truth();
+        if (surface.castsShadows && surface.height.values.empty()) {
+            throw shadows->error("is true, but there are no heights to cast any", "\"heights\", or no shadows");
+        }
     }
     for (const JsonNode& light : root.at("lights").items()) {
         surface.lights.push_back({light.at("photograph").text(), lightOf(light)});

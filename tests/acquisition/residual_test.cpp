@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "acquisition/normals/light_triples.h"
+#include "acquisition/residual/left_out.h"
 #include "acquisition/residual/light_interpolation.h"
 #include "acquisition/residual/residual_choice.h"
 #include "acquisition/residual/residual_estimate.h"
@@ -290,6 +291,11 @@ Remeasure asBefore(const Surface& surface)
     };
 }
 
+EstimatedResidual estimatedFrom(const Surface& surface, const ResidualOptions& options, ObservationBlocks& blocks)
+{
+    return estimateResidual(surface, options, leaveOut(surface, blocks, asBefore(surface)), blocks);
+}
+
 TEST(ResidualEstimate, ShowsThePhotographsAgain)
 {
     Surface surface = residualSurface(16);
@@ -297,7 +303,7 @@ TEST(ResidualEstimate, ShowsThePhotographsAgain)
     const Observations seen = shownBy(surface);
     ObservationBlocks blocks({seen});
     const ResidualOptions options{.choice = ResidualChoice::difference, .toleranceDecibels = 50, .threads = 1};
-    EstimatedResidual estimated = estimateResidual(surface, options, blocks, asBefore(surface));
+    EstimatedResidual estimated = estimatedFrom(surface, options, blocks);
     surface.residual = std::move(estimated.layer);
     ASSERT_FALSE(surface.residual.empty());
     EXPECT_GE(estimated.report.capturedPsnr, 50);
@@ -333,9 +339,7 @@ TEST(ResidualEstimate, SameBytesForOneAndTwoThreadsAndAnyBlocks)
     };
     const auto layerOf = [&](int threads, size_t size) {
         ObservationBlocks blocks = inBlocks(size);
-        return estimateResidual(surface, {.choice = ResidualChoice::difference, .threads = threads}, blocks,
-                                asBefore(surface))
-            .layer;
+        return estimatedFrom(surface, {.choice = ResidualChoice::difference, .threads = threads}, blocks).layer;
     };
     const ResidualLayer one = layerOf(1, 1024), two = layerOf(2, 1024), small = layerOf(2, 100);
     EXPECT_EQ(one.codes, two.codes);
@@ -351,8 +355,8 @@ TEST(ResidualEstimate, BudgetsAreKept)
     ObservationBlocks blocks({seen});
     const size_t budget = 2 * (16 * 16 + 12 * sizeof(glm::vec3));
     const auto reportOf = [&](size_t bytes) {
-        return estimateResidual(surface, {.choice = ResidualChoice::difference, .budgetBytes = bytes, .threads = 1},
-                                blocks, asBefore(surface))
+        return estimatedFrom(surface, {.choice = ResidualChoice::difference, .budgetBytes = bytes, .threads = 1},
+                             blocks)
             .report;
     };
     const ResidualReport kept = reportOf(budget);
@@ -370,18 +374,16 @@ TEST(ResidualEstimate, LightsThatCannotTellAreNamed)
     surface.residual = {};
     surface.lights.resize(5);
     ObservationBlocks none(std::vector<Observations>{});
-    EstimatedResidual estimated =
-        estimateResidual(surface, {.choice = ResidualChoice::automatic}, none, asBefore(surface));
+    EstimatedResidual estimated = estimatedFrom(surface, {.choice = ResidualChoice::automatic}, none);
     EXPECT_TRUE(estimated.layer.empty());
     EXPECT_NE(estimated.report.whyNot.find("5 lights"), std::string::npos) << estimated.report.whyNot;
-    expectError([&] { estimateResidual(surface, {.choice = ResidualChoice::difference}, none, asBefore(surface)); },
-                {"5 lights"});
+    expectError([&] { estimatedFrom(surface, {.choice = ResidualChoice::difference}, none); }, {"5 lights"});
     surface.lights.clear();
     for (int i = 0; i < 8; ++i) {
         const glm::vec3 l(0.1f * static_cast<float>(i) - 0.4f, 0, 1);
         surface.lights.push_back({std::to_string(i), {glm::normalize(l), {1, 1, 1}}});
     }
-    estimated = estimateResidual(surface, {.choice = ResidualChoice::automatic}, none, asBefore(surface));
+    estimated = estimatedFrom(surface, {.choice = ResidualChoice::automatic}, none);
     EXPECT_NE(estimated.report.whyNot.find("line"), std::string::npos) << estimated.report.whyNot;
 }
 
@@ -396,9 +398,7 @@ TEST(ResidualEstimate, BlackAndEqualPhotographsStayBounded)
         seen.radiance[p * seen.lightCount + 5] = glm::vec3(0);
     }
     ObservationBlocks blocks({seen});
-    surface.residual =
-        estimateResidual(surface, {.choice = ResidualChoice::difference, .threads = 1}, blocks, asBefore(surface))
-            .layer;
+    surface.residual = estimatedFrom(surface, {.choice = ResidualChoice::difference, .threads = 1}, blocks).layer;
     for (const glm::vec3& direction : {glm::vec3(0, 0, 1), glm::vec3(1, 0, 0), glm::normalize(glm::vec3(1, 1, -1))}) {
         const ResidualFrame frame = residualFrame(surface.residual, std::vector<Light>{{direction, {1, 1, 1}}});
         for (size_t p = 0; p < seen.pixels.size(); ++p) {
