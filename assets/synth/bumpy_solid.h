@@ -56,7 +56,7 @@ private:
 // All fill most of a picture whose shorter side spans [-1, 1].
 BumpySolid plainSphere();
 BumpySolid bumpySolid();
-// A ball hollowed out towards the camera.
+// A ball with a hollow towards the camera, narrow at the bottom.
 BumpySolid bowlSolid();
 
 // Spread over all of the solid, back included, by a Fibonacci spiral of directions from its middle.
