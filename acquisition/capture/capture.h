@@ -100,7 +100,8 @@ struct Capture {
     // In widths of the object, which is the longer side of its mask's bounding box, from the middle of that.
     std::optional<double> lightDistance; // of all lights; infinite: they are distant; none: not known
     std::vector<glm::vec3> lightPlaces;  // one per photograph, camera frame; empty where they are not known
-    std::optional<double> fieldOfView;   // across the capture's width, degrees; none: the camera is orthographic
+    std::optional<double> fieldOfView;   // across the files' width, degrees; none: the camera is orthographic
+    std::optional<double> viewByExif;    // the same as the files' EXIF has it; stated, not used
 };
 
 // An offset to subtract, on the scale of decoded values in [0, 1], or to estimate.

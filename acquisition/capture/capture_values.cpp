@@ -6,6 +6,7 @@
 #include <vector>
 
 #include <fmt/format.h>
+#include <glm/trigonometric.hpp>
 
 #include "acquisition/capture/capture_layouts.h"
 #include "acquisition/capture/capture_maps.h"
@@ -104,6 +105,22 @@ void takeExifTimes(std::span<const ReadHeader> headers)
     }
 }
 
+// Exif 2.32 (CIPA DC-008, 2019), FocalLengthIn35mmFilm: the picture's diagonal stands for that of film, 36 x 24 mm.
+double viewOnFilm(const ImageHeader& header)
+{
+    const double share = header.width / std::hypot(header.width, header.height);
+    return glm::degrees(2 * std::atan(share * std::hypot(36, 24) / 2 / *header.filmFocalLength));
+}
+
+// None where the photographs state none, or several.
+std::optional<double> viewByExif(std::span<const ReadHeader> headers)
+{
+    const std::optional<double> focalLength = headers[0].header.filmFocalLength;
+    const bool isOne = std::all_of(headers.begin(), headers.end(),
+                                   [&](const ReadHeader& read) { return read.header.filmFocalLength == focalLength; });
+    return focalLength && isOne ? std::optional(viewOnFilm(headers[0].header)) : std::nullopt;
+}
+
 } // namespace
 
 void examineHeaders(LayoutContents& contents, const std::optional<TransferCurve>& chosen)
@@ -116,6 +133,7 @@ void examineHeaders(LayoutContents& contents, const std::optional<TransferCurve>
         }
     }
     requireOneSize(all);
+    capture.viewByExif = viewByExif(all);
     fitWindow(capture, all[0].header.width, all[0].header.height, contents.listing);
     for (auto* sphere : {&capture.mirrorSphere, &capture.diffuseSphere}) {
         if (*sphere) {

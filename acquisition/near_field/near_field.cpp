@@ -17,6 +17,8 @@ namespace nacre {
 
 namespace {
 
+constexpr double kFarthestLight = 1000; // widths: beyond it units were mixed, metres and millimetres
+
 // The least rotation that turns a unit vector of positive z to (0,0,1): Rodrigues' formula about v x z, whose sine and
 // cosine are its length and v.z.
 glm::mat3 rotationToFront(const glm::vec3& v)
@@ -26,9 +28,20 @@ glm::mat3 rotationToFront(const glm::vec3& v)
     return {{c + k * y * y, -k * x * y, x}, {-k * x * y, c + k * x * x, y}, {-x, -y, c}};
 }
 
+// Where the files' middle is, in pixels of the capture, which may be a part of them.
+glm::dvec2 middleOfFiles(const Capture& capture)
+{
+    const FileWindow& w = capture.window;
+    return w.fileWidth == 0
+               ? glm::dvec2(capture.width, capture.height) / 2.0
+               : glm::dvec2(w.fileWidth / 2.0 - w.x, w.fileHeight / 2.0 - w.y) / static_cast<double>(w.box);
+}
+
 double cameraDistanceOf(const Capture& capture)
 {
-    return capture.fieldOfView ? capture.width / 2.0 / std::tan(glm::radians(*capture.fieldOfView) / 2)
+    const FileWindow& w = capture.window;
+    const double width = w.fileWidth == 0 ? capture.width : w.fileWidth / static_cast<double>(w.box);
+    return capture.fieldOfView ? width / 2 / std::tan(glm::radians(*capture.fieldOfView) / 2)
                                : std::numeric_limits<double>::infinity();
 }
 
@@ -37,14 +50,34 @@ bool isHarmless(double widths)
     return glm::degrees(std::atan2(0.5, widths)) < kHarmlessTurn;
 }
 
-void requireOutside(const Capture& capture, size_t photograph, double widths)
+[[noreturn]] void refusePlace(const Capture& capture, size_t photograph, const std::string& where,
+                              const std::string& expected)
+{
+    throw Error(capture.lightsSource.empty() ? capture.folder : std::filesystem::path(capture.lightsSource),
+                fmt::format("puts the light of {} {}", capture.photographs[photograph].name, where), expected);
+}
+
+// A light `widths` from the object's middle.
+void requireReachable(const Capture& capture, size_t photograph, double widths)
 {
     if (widths < kNearestLight) {
-        throw Error(
-            capture.lightsSource.empty() ? capture.folder : std::filesystem::path(capture.lightsSource),
-            fmt::format("puts the light of {} at {:.2f} widths from the object's middle, inside it",
-                        capture.photographs[photograph].name, widths),
+        refusePlace(
+            capture, photograph, fmt::format("at {:.2f} widths from the object's middle, inside it", widths),
             fmt::format("places or a distance in the unit of the object's width, {} widths or more", kNearestLight));
+    }
+    if (std::isfinite(widths) && widths > kFarthestLight) {
+        refusePlace(
+            capture, photograph, fmt::format("at {:.0f} widths from the object", widths),
+            fmt::format("places or a distance in the unit of the object's width, {:g} widths at most", kFarthestLight));
+    }
+}
+
+void requireBefore(const Capture& capture, size_t photograph)
+{
+    const float height = capture.lightPlaces[photograph].z;
+    if (height < 0) {
+        refusePlace(capture, photograph, fmt::format("{:.2f} widths behind the object's plane", -height),
+                    "places with z towards the camera, from the object's middle on");
     }
 }
 
@@ -70,12 +103,13 @@ std::optional<NearField> nearFieldOf(const Capture& capture, const std::vector<s
     if (!capture.lightPlaces.empty()) {
         for (const size_t photograph : photographs) {
             const glm::vec3& place = capture.lightPlaces[photograph];
-            requireOutside(capture, photograph, glm::length(place));
+            requireReachable(capture, photograph, glm::length(place));
+            requireBefore(capture, photograph);
             nearest = std::min<double>(nearest, glm::length(place));
             near.lights.push_back(static_cast<float>(width) * place);
         }
     } else if (capture.lightDistance && std::isfinite(*capture.lightDistance)) {
-        requireOutside(capture, photographs.front(), *capture.lightDistance);
+        requireReachable(capture, photographs.front(), *capture.lightDistance);
         nearest = *capture.lightDistance;
         near = withLightsAt(near, lights, nearest * width);
     }
@@ -87,7 +121,7 @@ std::optional<NearField> nearFieldOf(const Capture& capture, const std::vector<s
 
 NearField cameraOf(const Capture& capture)
 {
-    return {{}, cameraDistanceOf(capture), extentOf(capture).middle, {capture.width / 2.0, capture.height / 2.0}};
+    return {{}, cameraDistanceOf(capture), extentOf(capture).middle, middleOfFiles(capture)};
 }
 
 NearField withLightsAt(NearField near, const std::vector<Light>& lights, double distance)

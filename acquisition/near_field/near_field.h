@@ -31,10 +31,10 @@ ObjectExtent extentOf(const Capture& capture);
 // What the capture itself says of `lights`, which are those of `photographs`: their places, or one distance of all from
 // the object's middle; its field of view. None where the camera is orthographic and lights are distant, or so far that
 // their directions turn by less than kHarmlessTurn over the object. Throws Error (data) where a light stands inside the
-// object.
+// object, behind it, or so far that units must have been mixed.
 std::optional<NearField> nearFieldOf(const Capture& capture, const std::vector<size_t>& photographs,
                                      const std::vector<Light>& lights);
-inline constexpr double kHarmlessTurn = 2; // degrees from the object's middle to its edge
+inline constexpr double kHarmlessTurn = 0.5; // degrees from the object's middle to its edge
 
 // The camera alone.
 NearField cameraOf(const Capture& capture);

@@ -214,6 +214,11 @@ Capture CalibrationArguments::load()
     }
     capture.lightDistance = lightDistanceOf(lightDistance);
     requireLength(capture.objectWidth);
+    if (capture.objectWidth && capture.lightDistance) {
+        throw Error(
+            "", fmt::format("--object-width and --light-distance {} are two accounts of the lights", lightDistance),
+            "one of them: a width in the unit of the lights' places, or their distance in widths", Error::kUsage);
+    }
     requireView(capture.fieldOfView);
     Capture loaded = loadCapture(folder, capture);
     if (loaded.lights.empty() && !loaded.mirrorSphere) {

@@ -49,10 +49,13 @@ void describe(const SynthArguments& arguments, const SynthScene& scene)
 
 SynthShape shapeOf(const std::string& name)
 {
-    if (name != "bumpy" && name != "sphere") {
-        throw Error("", fmt::format("--shape {} is not known", name), "bumpy or sphere", Error::kUsage);
+    if (name == "bumpy") {
+        return SynthShape::bumpy;
     }
-    return name == "bumpy" ? SynthShape::bumpy : SynthShape::sphere;
+    if (name != "sphere" && name != "bowl") {
+        throw Error("", fmt::format("--shape {} is not known", name), "bumpy, bowl or sphere", Error::kUsage);
+    }
+    return name == "bowl" ? SynthShape::bowl : SynthShape::sphere;
 }
 
 SynthFormat formatOf(const std::string& name)
@@ -96,7 +99,8 @@ void addSynthCommand(CLI::App& app)
     CLI::App* command = app.add_subcommand("synth", "Make a capture of a solid whose truth is known");
     command->footer(kExample);
     command->add_option("OUT", arguments->output, "Folder to write")->required();
-    command->add_option("--shape", arguments->shape, "Solid: bumpy (casts shadows) or sphere")->capture_default_str();
+    command->add_option("--shape", arguments->shape, "Solid: bumpy (casts shadows), bowl or sphere")
+        ->capture_default_str();
     command->add_option("--side", arguments->size, "Side of a photograph in pixels")->capture_default_str();
     command->add_option("--lights", o.lights, "Number of lights, one a photograph")->capture_default_str();
     command
@@ -115,6 +119,10 @@ void addSynthCommand(CLI::App& app)
     command->add_option("--exposures", o.exposures, "Relative times of each photograph's bracket, e.g. 1,0.25 [1]")
         ->delimiter(',');
     command->add_flag("--no-shadows", arguments->noShadows, "No cast shadows");
+    command
+        ->add_option("--bounces", o.bounces,
+                     "How often light goes from one part of the object to another, as between matt surfaces")
+        ->capture_default_str();
     command->add_flag("--shadow-masks", o.shadowMasks, "Pictures truth/shadow_NN.png, white where the light arrives");
     command->add_flag("--give-lights", o.giveLights, "True lights in capture.json");
     command->add_option("--sphere-size", o.sphereSize, "Side of the spheres' photographs in pixels")

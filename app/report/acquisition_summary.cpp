@@ -127,6 +127,11 @@ std::string describe(const Capture& capture)
             fmt::format("\nwindow       {}x{} from ({}, {}) of {}x{}, {}x{} pixels averaged to one", window.width,
                         window.height, window.x, window.y, window.fileWidth, window.fileHeight, window.box, window.box);
     }
+    if (capture.viewByExif && !capture.fieldOfView) {
+        text += fmt::format("\nlens         {0:.1f} degrees wide by EXIF, taken for a distant one's (--field-of-view "
+                            "{0:.1f} counts with it)",
+                            *capture.viewByExif);
+    }
     if (!capture.offsetSource.empty()) {
         text += fmt::format("\noffset       {:.4f} subtracted ({})", capture.offset, capture.offsetSource);
     }

@@ -135,6 +135,12 @@ std::optional<dvec3> BumpySolid::seenFrom(const dvec3& camera, const dvec3& thro
     return t ? std::optional(camera + *t * ray) : std::nullopt;
 }
 
+bool BumpySolid::sees(const dvec3& from, const dvec3& to) const
+{
+    const double distance = glm::length(to - from);
+    return !firstHit(from, (to - from) / distance, kLeastStep, distance - kLeastStep);
+}
+
 bool BumpySolid::reachesLight(const dvec3& surfacePoint, const dvec3& light) const
 {
     if (glm::dot(gradient(surfacePoint), light) <= 0.0) {
@@ -167,6 +173,24 @@ BumpySolid bumpySolid()
                                 {{0.90, 0.30, 0.32}, -0.09, 0.10},
                                 {{0.42, 0.02, 0.91}, 0.06, 0.02},
                             });
+}
+
+BumpySolid bowlSolid()
+{
+    return BumpySolid(0.95, {{{0.10, 0.15, 0.98}, -0.75, 0.70}});
+}
+
+// A direction's share w of the sphere covers the area w R^2 / (n.d) of the surface at R d.
+std::vector<SurfaceNode> nodesOf(const BumpySolid& solid, int count)
+{
+    std::vector<SurfaceNode> nodes;
+    for (int i = 0; i < count; ++i) {
+        const dvec3 direction = spiralDirection(i, count), place = solid.pointTowards(direction),
+                    normal = solid.normal(place);
+        nodes.push_back(
+            {place, normal, 4 * std::numbers::pi / count * glm::dot(place, place) / glm::dot(normal, direction)});
+    }
+    return nodes;
 }
 
 namespace {

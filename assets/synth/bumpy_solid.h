@@ -8,6 +8,7 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
+#include "assets/synth/interreflection.h"
 #include "engine/surface/normal_map.h"
 
 namespace nacre {
@@ -35,6 +36,10 @@ public:
     std::optional<double> depthTowardsCamera(double x, double y) const;
     // The surface's point that a camera outside the solid sees towards `through`; empty beside the solid.
     std::optional<glm::dvec3> seenFrom(const glm::dvec3& camera, const glm::dvec3& through) const;
+    // The surface's point in a direction (unit) from the solid's middle.
+    glm::dvec3 pointTowards(const glm::dvec3& direction) const { return radiusTowards(direction) * direction; }
+    // Whether the line between two surface points, which face each other, runs outside.
+    bool sees(const glm::dvec3& from, const glm::dvec3& to) const;
     // Whether the ray from a surface point towards a distant light (unit direction) leaves the solid freely.
     bool reachesLight(const glm::dvec3& surfacePoint, const glm::dvec3& light) const;
 
@@ -48,9 +53,14 @@ private:
     double slope_;          // no step of length s changes outside() by more than slope_ * s
 };
 
-// Both fill most of a picture whose shorter side spans [-1, 1].
+// All fill most of a picture whose shorter side spans [-1, 1].
 BumpySolid plainSphere();
 BumpySolid bumpySolid();
+// A ball with a hollow towards the camera, narrow at the bottom.
+BumpySolid bowlSolid();
+
+// Spread over all of the solid, back included, by a Fibonacci spiral of directions from its middle.
+std::vector<SurfaceNode> nodesOf(const BumpySolid& solid, int count);
 
 // Which of `materials` an object's point wears whose direction from the object's middle is `direction` (unit): patches
 // of some 40 degrees, nearest-point cells around a Fibonacci spiral on the sphere, the materials in turn.

@@ -120,6 +120,11 @@ Json parametersOfModel(const BrdfModel& model)
     return std::visit([](const auto& m) { return parametersOf(m); }, model);
 }
 
+std::string nameOf(SynthShape shape)
+{
+    return shape == SynthShape::sphere ? "sphere" : shape == SynthShape::bowl ? "bowl" : "bumpy";
+}
+
 std::string textOf(const Json& json)
 {
     return json.dump(2) + "\n";
@@ -128,12 +133,8 @@ std::string textOf(const Json& json)
 // The JSON files of a synthetic capture (docs/formats.md), as text.
 std::string captureDocument(const SynthScene& scene)
 {
-    Json json{{"format", "nacre capture"},
-              {"version", 1},
-              {"name", scene.options.shape == SynthShape::sphere ? "sphere" : "bumpy"},
-              {"transfer", "linear"},
-              {"mask", "mask.png"},
-              {"truthNormals", "truth/normals.exr"}};
+    Json json{{"format", "nacre capture"}, {"version", 1},       {"name", nameOf(scene.options.shape)},
+              {"transfer", "linear"},      {"mask", "mask.png"}, {"truthNormals", "truth/normals.exr"}};
     if (scene.options.giveLights && scene.options.lightDistance > 0) {
         json["objectWidth"] = 1; // the lights' vectors are their places
     }
@@ -169,6 +170,9 @@ std::string brdfDocument(const SynthScene& scene)
               {"noise", scene.sensor.noise},
               {"diffuseSphereReflectance", jsonOf(scene.options.sphereReflectance)},
               {"seed", scene.options.seed}};
+    if (scene.options.bounces > 0) {
+        json["bounces"] = scene.options.bounces;
+    }
     for (size_t i = 0; i < scene.options.patches.size(); ++i) {
         json["patches"].push_back(
             {{"material", scene.options.patches[i]}, {"parameters", parametersOfModel(scene.models[i + 1])}});

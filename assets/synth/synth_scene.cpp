@@ -85,6 +85,8 @@ constexpr size_t kPercentilePixels = 4096;
 constexpr double kNearestSynthLight = 1; // widths of the object
 constexpr double kWidestSynthView = 60;  // degrees: the camera stays outside the solid
 constexpr size_t kMostMaterials = 16;    // 30 patches
+constexpr int kMostBounces = 64;
+constexpr int kMostBouncingSide = 512; // every pixel keeps its form factors
 
 void require(bool condition, const char* wrong, const char* expected)
 {
@@ -104,6 +106,9 @@ void check(const SynthOptions& o)
             "1 width of the object or more");
     require(o.fieldOfView >= 0 && o.fieldOfView <= kWidestSynthView, "the field of view is out of range",
             "0 to 60 degrees");
+    require(o.bounces >= 0 && o.bounces <= kMostBounces, "the number of bounces is out of range", "0 to 64");
+    require(o.bounces == 0 || std::max(o.width, o.height) <= kMostBouncingSide,
+            "the picture's side is too large for light that bounces", "512 pixels or less");
     require(o.noise >= 0 && o.noise < 1, "the noise is out of range", "0 or more and less than 1");
     require(o.patches.size() < kMostMaterials, "there are too many materials", "16 at most");
     require(!o.exposures.empty(), "there are no exposures", "relative times such as 1,0.25");
@@ -113,7 +118,15 @@ void check(const SynthOptions& o)
 
 BumpySolid solidOf(SynthShape shape)
 {
-    return shape == SynthShape::sphere ? plainSphere() : bumpySolid();
+    switch (shape) {
+    case SynthShape::sphere:
+        return plainSphere();
+    case SynthShape::bowl:
+        return bowlSolid();
+    case SynthShape::bumpy:
+        break;
+    }
+    return bumpySolid();
 }
 
 std::vector<uint8_t> labelsOf(const SolidView& view, size_t materials)
@@ -143,28 +156,60 @@ bool isLit(const SynthScene& scene, uint32_t pixel, const Light& met)
            (!scene.options.shadows || scene.solid.reachesLight(scene.view.surfacePoint(pixel), met.direction));
 }
 
-vec3 pixelRadiance(const SynthScene& scene, uint32_t pixel, const Light& met)
+vec3 lightsRadiance(const SynthScene& scene, uint32_t pixel, const Light& light)
 {
+    const Light met = lightAt(scene, scene.view.surfacePoint(pixel), light);
+    if (!isLit(scene, pixel, met)) {
+        return vec3(0);
+    }
     const vec3& n = scene.view.normals.normals[pixel];
     vec3 f = evaluate(scene.models[scene.labels[pixel]], n, met.direction, vec3(scene.view.towardsCamera(pixel)));
     return radianceFromBrdf(f, met.irradiance, dot(n, met.direction));
 }
 
+// What the solid's nodes send out of a light's; none where no light bounces.
+std::vector<glm::dvec3> sentByNodes(const SynthScene& scene, const Light& light)
+{
+    if (!scene.bouncing) {
+        return {};
+    }
+    const BouncingLight& bouncing = *scene.bouncing;
+    std::vector<glm::dvec3> lit;
+    for (const SurfaceNode& node : bouncing.nodes) {
+        const Light met = lightAt(scene, node.place, light);
+        const glm::dvec3 direction(met.direction);
+        const double cosine = glm::dot(node.normal, direction);
+        const bool reaches = cosine > 0 && (!scene.options.shadows || scene.solid.reachesLight(node.place, direction));
+        lit.push_back(reaches ? cosine * glm::dvec3(met.irradiance) : glm::dvec3(0));
+    }
+    return sentAfter(bouncing.bounces, bouncing.betweenNodes, bouncing.albedos, lit);
+}
+
+// Of the view's seen pixel of this number. `sent`: of this light, by the nodes.
+vec3 pixelRadiance(const SynthScene& scene, size_t seen, const Light& light, const std::vector<glm::dvec3>& sent)
+{
+    const uint32_t pixel = scene.view.seen[seen];
+    vec3 radiance = lightsRadiance(scene, pixel, light);
+    if (scene.bouncing) {
+        const glm::dvec3 albedo = scene.bouncing->materialAlbedos[scene.labels[pixel]];
+        radiance += vec3(albedo / std::numbers::pi * arriving(scene.bouncing->toPixels[seen], sent));
+    }
+    return radiance;
+}
+
 // Brightest channels of a part of the object's pixels under every light.
 std::vector<float> sampledRadiance(const SynthScene& scene)
 {
-    const std::vector<uint32_t>& seen = scene.view.seen;
-    const size_t stride = std::max<size_t>(1, seen.size() / kPercentilePixels);
-    const size_t samples = (seen.size() + stride - 1) / stride;
-    std::vector<float> brightest(samples * scene.lights.size(), 0.0f);
-    parallelFor(samples, 64, scene.options.threads, [&](size_t first, size_t last) {
-        for (size_t i = first; i < last; ++i) {
-            for (size_t j = 0; j < scene.lights.size(); ++j) {
-                const Light met = lightAt(scene, seen[i * stride], scene.lights[j]);
-                if (isLit(scene, seen[i * stride], met)) {
-                    vec3 radiance = pixelRadiance(scene, seen[i * stride], met);
-                    brightest[i * scene.lights.size() + j] = max(radiance.x, max(radiance.y, radiance.z));
-                }
+    const size_t pixels = scene.view.seen.size(), lights = scene.lights.size();
+    const size_t stride = std::max<size_t>(1, pixels / kPercentilePixels);
+    const size_t samples = (pixels + stride - 1) / stride;
+    std::vector<float> brightest(samples * lights);
+    parallelFor(lights, 1, scene.options.threads, [&](size_t first, size_t last) {
+        for (size_t j = first; j < last; ++j) {
+            const std::vector<glm::dvec3> sent = sentByNodes(scene, scene.lights[j]);
+            for (size_t i = 0; i < samples; ++i) {
+                const vec3 radiance = pixelRadiance(scene, i * stride, scene.lights[j], sent);
+                brightest[i * lights + j] = max(radiance.x, max(radiance.y, radiance.z));
             }
         }
     });
@@ -206,21 +251,31 @@ SynthScene makeSynthScene(const SynthOptions& options)
     BumpySolid solid = solidOf(options.shape);
     SolidView view = viewOf(solid, options.width, options.height, options.threads, options.fieldOfView);
     std::vector<uint8_t> labels = labelsOf(view, models.size());
-    SynthScene scene{
-        options, std::move(solid), std::move(view), synthLights(options), {}, 0, std::move(models), std::move(labels),
-        {}};
+    SynthScene scene{options,
+                     std::move(solid),
+                     std::move(view),
+                     synthLights(options),
+                     {},
+                     0,
+                     std::move(models),
+                     std::move(labels),
+                     {},
+                     {}};
     placeObject(scene);
+    if (options.bounces > 0) {
+        scene.bouncing = std::make_shared<const BouncingLight>(
+            bouncingLight(scene.solid, scene.view, scene.models, options.bounces, options.threads));
+    }
     scene.sensor = exposedSensor(scene);
     return scene;
 }
 
-Light lightAt(const SynthScene& scene, uint32_t pixel, const Light& light)
+Light lightAt(const SynthScene& scene, const glm::dvec3& place, const Light& light)
 {
     if (scene.lightDistance <= 0) {
         return light;
     }
-    const glm::dvec3 towards =
-        scene.middle + scene.lightDistance * glm::dvec3(light.direction) - scene.view.surfacePoint(pixel);
+    const glm::dvec3 towards = scene.middle + scene.lightDistance * glm::dvec3(light.direction) - place;
     const double share = scene.lightDistance / glm::length(towards);
     return {glm::vec3(glm::normalize(towards)), light.irradiance * static_cast<float>(share * share)};
 }
@@ -231,7 +286,7 @@ std::vector<uint8_t> litPixels(const SynthScene& scene, const Light& light, int 
     parallelFor(scene.view.seen.size(), 1024, threads, [&](size_t first, size_t last) {
         for (size_t i = first; i < last; ++i) {
             const uint32_t pixel = scene.view.seen[i];
-            lit[pixel] = isLit(scene, pixel, lightAt(scene, pixel, light));
+            lit[pixel] = isLit(scene, pixel, lightAt(scene, scene.view.surfacePoint(pixel), light));
         }
     });
     return lit;
@@ -240,13 +295,11 @@ std::vector<uint8_t> litPixels(const SynthScene& scene, const Light& light, int 
 Image objectRadiance(const SynthScene& scene, const Light& light, int threads)
 {
     Image radiance(scene.view.normals.width, scene.view.normals.height, 3);
+    const std::vector<glm::dvec3> sent = sentByNodes(scene, light);
     parallelFor(scene.view.seen.size(), 1024, threads, [&](size_t first, size_t last) {
         for (size_t i = first; i < last; ++i) {
-            uint32_t pixel = scene.view.seen[i];
-            const Light met = lightAt(scene, pixel, light);
-            if (isLit(scene, pixel, met)) {
-                radiance.setRgb(pixel % radiance.width, pixel / radiance.width, pixelRadiance(scene, pixel, met));
-            }
+            const uint32_t pixel = scene.view.seen[i];
+            radiance.setRgb(pixel % radiance.width, pixel / radiance.width, pixelRadiance(scene, i, light, sent));
         }
     });
     return radiance;

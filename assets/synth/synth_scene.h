@@ -1,11 +1,13 @@
 #pragma once
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include <glm/vec3.hpp>
 
+#include "assets/synth/bouncing_light.h"
 #include "assets/synth/bumpy_solid.h"
 #include "engine/brdf/brdf_models.h"
 #include "engine/files/image.h"
@@ -13,7 +15,7 @@
 
 namespace nacre {
 
-enum class SynthShape { sphere, bumpy };
+enum class SynthShape { sphere, bumpy, bowl };
 enum class SynthFormat { png16, exr };
 
 // A capture whose truth is known.
@@ -32,6 +34,7 @@ struct SynthOptions {
     double leastIrradiance = 0.7;            // of a light's channel, drawn evenly from [least, largest]
     double largestIrradiance = 1.3;          //
     bool shadows = true;                     // cast ones; attached ones are part of the reflectance equation
+    int bounces = 0;                         // of light between the object's own points; matt (BouncingLight)
     double noise = 0.002;                    // standard deviation, of the 99th percentile of the object's values
     SynthFormat format = SynthFormat::png16; // exr: float32, the object's values are not clipped
     std::vector<double> exposures{1.0};      // relative times of every photograph's bracket; the longest comes first
@@ -71,6 +74,7 @@ struct SynthScene {
     double lightDistance = 0;  // from there in that unit; 0: distant
     std::vector<BrdfModel> models;
     std::vector<uint8_t> labels; // per pixel of the photograph: index into models; kNoMaterial beside the object
+    std::shared_ptr<const BouncingLight> bouncing; // empty: no light bounces
     // Gain and noise serve the whole capture, spheres included; each photograph's values are gain * radiance.
     Sensor sensor;
 };
@@ -78,13 +82,13 @@ struct SynthScene {
 // Throws Error (usage) where an option makes no capture.
 SynthScene makeSynthScene(const SynthOptions& options);
 
-// The light as the pixel's surface point meets it.
-Light lightAt(const SynthScene& scene, uint32_t pixel, const Light& light);
+// The light as a point meets it.
+Light lightAt(const SynthScene& scene, const glm::dvec3& place, const Light& light);
 
 // 1 where the light reaches the pixel's surface point: neither attached nor cast shadow (the latter where asked for).
 std::vector<uint8_t> litPixels(const SynthScene& scene, const Light& light, int threads);
 
-// Radiance f E n.l of the object's pixels, 3 channels; 0 in shadow and beside the object.
+// Radiance of the object's pixels, 3 channels, 0 beside the object: f E n.l where the light reaches, and what bounces.
 Image objectRadiance(const SynthScene& scene, const Light& light, int threads);
 
 } // namespace nacre

@@ -57,6 +57,7 @@ struct ImageHeader {
     TransferCurve declaredCurve = TransferCurve::linear;
     bool curveIsDeclared = false;
     std::optional<double> exposureSeconds; // EXIF
+    std::optional<double> filmFocalLength; // EXIF: in mm, of the lens that would show as much on 35 mm film
 };
 
 // Throws Error (data) where the file is missing or no reader takes it.

@@ -208,6 +208,10 @@ ImageHeader headerOf(const fs::path& file, const OIIO::ImageInput& input)
     if (seconds > 0) {
         header.exposureSeconds = seconds;
     }
+    const int focalLength = spec.get_int_attribute("Exif:FocalLengthIn35mmFilm", 0); // 0: not known
+    if (focalLength > 0) {
+        header.filmFocalLength = focalLength;
+    }
     declareCurve(header, file, spec);
     return header;
 }

@@ -10,6 +10,7 @@
 #include "acquisition/lights/well_spread_lights.h"
 #include "engine/files/error.h"
 #include "engine/files/hash_random.h"
+#include "evaluation/stress/capture_sweeps.h"
 #include "evaluation/stress/light_layouts.h"
 
 namespace nacre {
@@ -163,6 +164,36 @@ const NamedSweep kSweeps[] = {
     {"layout", "", {}, nullptr, layoutSettings, true},
     {"coplanar", "degrees beside one plane", {}, nullptr, coplanarSettings, true},
     {"specular", "% of the reflectance", {}, nullptr, specularSettings, true},
+    {"distance-told",
+     "object widths to lights whose places are told",
+     {},
+     nullptr,
+     [](const StressSubject& s) { return distanceSettings(*s.made, true); },
+     true},
+    {"distance-sought",
+     "object widths to lights whose directions alone are told",
+     {},
+     nullptr,
+     [](const StressSubject& s) { return distanceSettings(*s.made, false); },
+     true},
+    {"lens-told",
+     "degrees of a field of view that is told",
+     {},
+     nullptr,
+     [](const StressSubject& s) { return viewSettings(*s.made, true); },
+     true},
+    {"lens-untold",
+     "degrees of a field of view that is not told",
+     {},
+     nullptr,
+     [](const StressSubject& s) { return viewSettings(*s.made, false); },
+     true},
+    {"interreflection",
+     "% that a matt object reflects",
+     {},
+     nullptr,
+     [](const StressSubject& s) { return interreflectionSettings(*s.made); },
+     true},
 };
 
 } // namespace
@@ -187,12 +218,14 @@ StressSubject syntheticSubject(const SynthOptions& options)
     };
     subject.noise = options.noise;
     subject.seed = options.seed;
+    subject.made = options;
+    subject.made->capDegrees = kCapDegrees;
     return subject;
 }
 
 StressSubject captureSubject(PhotographedObject object, uint64_t seed)
 {
-    return {std::move(object), 0, seed, {}, {}};
+    return {std::move(object), 0, seed, {}, {}, {}};
 }
 
 std::vector<std::string> normalSweepNames()

@@ -1,8 +1,11 @@
 #pragma once
+#include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "acquisition/capture/capture.h"
 #include "assets/synth/synth_scene.h"
 #include "evaluation/held_out/photographed_object.h"
 #include "evaluation/stress/degradations.h"
@@ -15,6 +18,9 @@ struct Sweep {
         std::string value;
         std::function<PhotographedObject()> photographed;
         bool isOtherMaterial = false; // a BRDF from it is told against its own photographs, not the subject's
+        // Where it is there, in place of `photographed`: a capture for the whole chain, in a folder that does not
+        // exist yet. Its normals alone are judged.
+        std::function<Capture(const std::filesystem::path&)> captured = {};
     };
     std::string name;
     std::string unit; // of the settings' values
@@ -30,6 +36,8 @@ struct StressSubject {
     std::function<PhotographedObject(const std::vector<Light>&)> relit;
     // The same under the same lights, of a gloss that has such a share of the reflectance; empty as above.
     std::function<PhotographedObject(double specularShare)> reglazed;
+    // What it was made of, for captures of it; empty as above.
+    std::optional<SynthOptions> made = std::nullopt;
 };
 
 // A solid that casts shadows on itself, under lights all over a cap of 55 degrees.

@@ -12,13 +12,16 @@
 #include "acquisition/brdf/albedo_factor.h"
 #include "acquisition/brdf/bake.h"
 #include "acquisition/brdf/brdf_samples.h"
+#include "acquisition/capture/capture_maps.h"
 #include "acquisition/capture/observations.h"
+#include "acquisition/chain/capture_preparation.h"
 #include "acquisition/chain/chosen_method.h"
 #include "acquisition/checks/height_consistency.h"
 #include "acquisition/lights/lights.h"
 #include "acquisition/normals/light_triples.h"
 #include "engine/files/error.h"
 #include "engine/files/stopwatch.h"
+#include "engine/files/whole_file.h"
 #include "evaluation/held_out/photographed_object.h"
 
 namespace nacre {
@@ -276,10 +279,62 @@ StressRow brdfRow(const TimedEstimate& timed, const Preparation& preparation, co
     return row;
 }
 
-// What every method makes of one setting.
-std::vector<StressRow> rowsOf(const StressSubject& subject, const PhotographedObject& object,
-                              const PhotographedObject& undegraded, const std::vector<NormalMethod>& methods,
-                              const AcquireOptions& options)
+// A map's pixels that the mask has, in a row.
+NormalMap rowOf(const NormalMap& map, const std::vector<uint8_t>& mask)
+{
+    NormalMap row(static_cast<int>(std::count(mask.begin(), mask.end(), 1)), 1);
+    size_t next = 0;
+    for (size_t pixel = 0; pixel < mask.size(); ++pixel) {
+        if (mask[pixel]) {
+            row.normals[next] = map.normals[pixel];
+            row.confidence[next++] = map.confidence[pixel];
+        }
+    }
+    return row;
+}
+
+// The whole of `nacre normals`.
+StressRow capturedRow(const Capture& capture, NormalMethod method, const AcquireOptions& options)
+{
+    AcquireOptions chosen = options;
+    chosen.normals.method = method;
+    chosen.estimateDistance = true;
+    const NormalMap truth =
+        rowOf(windowedNormals(loadTrueNormals(capture.truthNormals), capture, capture.truthNormals), capture.mask);
+    StressRow row;
+    row.method = nameOf(method);
+    NormalMap normals(truth.width, 1);
+    const Stopwatch watch;
+    TimedEstimate said;
+    try {
+        const NormalEstimate estimate = estimateCaptureNormals(capture, chosen, [](const std::string&, double) {});
+        normals = rowOf(estimate.normals, capture.mask);
+        said.estimate = {{}, estimate.report.findings};
+        std::erase_if(said.estimate->warnings, [](const Finding& finding) { return !isWarning(finding.code); });
+    } catch (const Error& error) {
+        said.refusal = error.what();
+    }
+    row.seconds = watch.seconds();
+    keepWords(said, row);
+    judgeNormals(normals, truth, row);
+    return row;
+}
+
+std::vector<StressRow> capturedRows(const Sweep::Setting& setting, const std::vector<NormalMethod>& methods,
+                                    const AcquireOptions& options)
+{
+    const TemporaryFolder folder;
+    const Capture capture = setting.captured(folder.path() / "capture");
+    std::vector<StressRow> rows;
+    for (const NormalMethod method : methods) {
+        rows.push_back(capturedRow(capture, method, options));
+    }
+    return rows;
+}
+
+// What every method makes of photographs in memory.
+std::vector<StressRow> photographedRows(const PhotographedObject& object, const PhotographedObject& undegraded,
+                                        const std::vector<NormalMethod>& methods, const AcquireOptions& options)
 {
     std::vector<StressRow> rows;
     const Preparation preparation = prepare(object, options);
@@ -291,10 +346,18 @@ std::vector<StressRow> rowsOf(const StressSubject& subject, const PhotographedOb
             rows.push_back(brdfRow(timed, preparation, undegraded, InterpolationMethod::paper, options));
         }
     }
-    for (StressRow& row : rows) {
-        row.capture = subject.clean.name;
-    }
     return rows;
+}
+
+// What every method makes of one setting.
+std::vector<StressRow> rowsOf(const StressSubject& subject, const Sweep::Setting& setting,
+                              const std::vector<NormalMethod>& methods, const AcquireOptions& options)
+{
+    if (setting.captured) {
+        return capturedRows(setting, methods, options);
+    }
+    const PhotographedObject object = setting.photographed();
+    return photographedRows(object, setting.isOtherMaterial ? object : subject.clean, methods, options);
 }
 
 } // namespace
@@ -333,9 +396,8 @@ std::vector<StressRow> runSweeps(const StressSubject& subject, const std::vector
         for (const Sweep::Setting& setting : sweep.settings) {
             progress(fmt::format("{} {}", sweep.name, setting.value),
                      static_cast<double>(done++) / static_cast<double>(settings));
-            const PhotographedObject object = setting.photographed();
-            const PhotographedObject& undegraded = setting.isOtherMaterial ? object : subject.clean;
-            for (StressRow& row : rowsOf(subject, object, undegraded, methods, options)) {
+            for (StressRow& row : rowsOf(subject, setting, methods, options)) {
+                row.capture = subject.clean.name;
                 row.sweep = sweep.name;
                 row.setting = setting.value;
                 row.unit = sweep.unit;

@@ -1,4 +1,7 @@
 // What is checked alike for every layout: counts, sizes, masks, curves, exposure times, rigs.
+#include <algorithm>
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 #include "acquisition/capture/capture.h"
@@ -175,6 +178,30 @@ TEST_F(CaptureChecks, GivenTimesComeBeforeExif)
         {"file": "cat.0.png", "exposureSeconds": 3}, {"file": "cat.1.png", "exposureSeconds": 3},
         {"file": "cat.2.png", "exposureSeconds": 3}]})");
     EXPECT_EQ(load().photographs[2].exposures[0].seconds, 3.0);
+}
+
+// A picture of 4 by 3 has 4/5 of its diagonal as its width; that of film is 43.27 mm.
+TEST_F(CaptureChecks, AFocalLengthOfFilmStatesAView)
+{
+    const Image picture(8, 6, 3);
+    Image mask(8, 6, 1);
+    std::fill(mask.values.begin(), mask.values.end(), 1.0f);
+    fs::remove(folder_ / "cat.mask.tga");
+    writePicture(folder_ / "cat.mask.png", mask);
+    const auto writeAll = [&](const char* ofTheLast) {
+        for (int i = 0; i < 4; ++i) {
+            saveImage(folder_ / ("cat." + std::to_string(i) + ".png"), picture, PixelType::uint16,
+                      {{"Exif:FocalLengthIn35mmFilm", i == 3 ? ofTheLast : "75"}});
+        }
+    };
+    writeAll("75");
+    ASSERT_TRUE(load().viewByExif);
+    EXPECT_NEAR(*load().viewByExif, 2 * std::atan(0.8 * 43.2666 / 2 / 75) * 180 / M_PI, 1e-4);
+    EXPECT_FALSE(load().fieldOfView) << "stated, not used";
+    writeAll("50");
+    EXPECT_FALSE(load().viewByExif) << "a zoom that was moved";
+    writeAll("0");
+    EXPECT_FALSE(load().viewByExif);
 }
 
 TEST_F(CaptureChecks, RigTableInOrder)

@@ -234,23 +234,69 @@ TEST(NearField, DistantLightsStayDistant)
     const Capture capture = loadCapture(folder / "c");
     EXPECT_FALSE(nearFieldOf(capture, {0}, {capture.lights[0]}));
     Capture harmless = capture;
-    harmless.lightDistance = 20; // widths: directions turn by 1.4 degrees
+    harmless.lightDistance = 100; // widths: directions turn by 0.3 degrees
     EXPECT_FALSE(nearFieldOf(harmless, {0}, {capture.lights[0]}));
-    harmless.lightDistance = 5;
+    harmless.lightDistance = 20;
     EXPECT_TRUE(nearFieldOf(harmless, {0}, {capture.lights[0]}));
     const NormalEstimate estimate = estimateCaptureNormals(capture, seekingDistance(), kSilent);
     EXPECT_FALSE(contains(estimate.report.findings, FindingCode::lightsPlaced));
 }
 
-TEST(NearField, LightsInsideTheObjectAndDirectionsForPlacesAreRefused)
+SynthOptions fourLights()
 {
-    const TempFolder folder;
     SynthOptions options;
     options.width = options.height = 32;
     options.lights = 4;
     options.giveLights = true;
     options.sphereSize = 48;
+    return options;
+}
+
+TEST(NearField, TheCameraLooksAtTheFilesMiddleHoweverTheyAreCut)
+{
+    Capture whole;
+    whole.width = 200;
+    whole.height = 100;
+    whole.mask.assign(200 * 100, 1);
+    whole.fieldOfView = 30;
+    Capture part = whole;
+    part.window = {40, 10, 120, 60, 2, 200, 100};
+    part.width = 60;
+    part.height = 30;
+    part.mask.assign(60 * 30, 1);
+    const NearField ofWhole = cameraOf(whole), ofPart = cameraOf(part);
+    EXPECT_NEAR(ofPart.cameraDistance, ofWhole.cameraDistance / 2, 1e-9);
+    EXPECT_NEAR(2 * ofPart.axis.x + 40, ofWhole.axis.x, 1e-9);
+    EXPECT_NEAR(2 * ofPart.axis.y + 10, ofWhole.axis.y, 1e-9);
+}
+
+TEST(NearField, PlacesThatNoLampHasAreRefused)
+{
+    const TempFolder folder;
+    SynthOptions options = fourLights();
+    options.lightDistance = 3;
     writeSynthCapture(folder / "c", makeSynthScene(options), false);
+    const Capture capture = loadCapture(folder / "c");
+    const std::vector<size_t> all{0, 1, 2, 3};
+    EXPECT_TRUE(nearFieldOf(capture, all, capture.lights));
+    Capture behind = capture;
+    behind.lightPlaces[2].z = -0.5f;
+    expectError([&] { nearFieldOf(behind, all, behind.lights); }, {"object_03.png", "0.50 widths behind", "z towards"});
+    CaptureOptions millimetres; // and places in metres are inside
+    millimetres.objectWidth = 1000;
+    const Capture small = loadCapture(folder / "c", millimetres);
+    expectError([&] { nearFieldOf(small, all, small.lights); }, {"object_01.png", "inside", "unit of the object's"});
+    CaptureOptions metres;
+    metres.objectWidth = 0.001;
+    const Capture large = loadCapture(folder / "c", metres);
+    expectError([&] { nearFieldOf(large, all, large.lights); },
+                {"object_01.png", "3000 widths", "unit of the object's"});
+}
+
+TEST(NearField, LightsInsideTheObjectAndDirectionsForPlacesAreRefused)
+{
+    const TempFolder folder;
+    writeSynthCapture(folder / "c", makeSynthScene(fourLights()), false);
     CaptureOptions width;
     width.objectWidth = 0.2;
     expectError([&] { loadCapture(folder / "c", width); }, {"places no lights", "0.2", "places in the unit"});

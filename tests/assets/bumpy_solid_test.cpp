@@ -77,10 +77,12 @@ TEST(BumpySolid, NormalsAreUnitAndMatchTheDepthsSlope)
 
 TEST(BumpySolid, FillsThePictureWithoutTouchingItsBorder)
 {
-    const std::vector<uint8_t>& mask = bumpyView().mask;
-    EXPECT_GT(bumpyView().seen.size(), mask.size() / 3);
-    for (int i = 0; i < 96; ++i) {
-        EXPECT_FALSE(mask[i] || mask[95 * 96 + i] || mask[i * 96] || mask[i * 96 + 95]);
+    for (const SolidView& view : {bumpyView(), viewOf(bowlSolid(), 96, 96, 0)}) {
+        const std::vector<uint8_t>& mask = view.mask;
+        EXPECT_GT(view.seen.size(), mask.size() / 3);
+        for (int i = 0; i < 96; ++i) {
+            EXPECT_FALSE(mask[i] || mask[95 * 96 + i] || mask[i * 96] || mask[i * 96 + 95]);
+        }
     }
 }
 

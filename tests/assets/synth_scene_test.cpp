@@ -146,6 +146,63 @@ TEST(SynthScene, DoesNotDependOnThreadsButOnTheSeed)
     EXPECT_NE(one.lights[5].irradiance, other.lights[5].irradiance);
 }
 
+SynthOptions whiteBowl(int bounces)
+{
+    SynthOptions options = lambertSphere();
+    options.shape = SynthShape::bowl;
+    options.material = "lambert:0.9,0.5,0";
+    options.bounces = bounces;
+    return options;
+}
+
+TEST(SynthScene, BouncesAddLightInShadowsAndByTheAlbedo)
+{
+    const SynthScene none = makeSynthScene(whiteBowl(0)), one = makeSynthScene(whiteBowl(1)),
+                     many = makeSynthScene(whiteBowl(12));
+    EXPECT_FALSE(none.bouncing);
+    const Light& light = none.lights.back();
+    const Image direct = objectRadiance(none, light, 1), first = objectRadiance(one, light, 1),
+                all = objectRadiance(many, light, 1);
+    const std::vector<uint8_t> lit = litPixels(none, light, 1);
+    double ratio = 0, darkest = 0, brightest = 0;
+    for (const uint32_t pixel : none.view.seen) {
+        const float* before = &direct.values[3 * pixel];
+        const float* after = &first.values[3 * pixel];
+        EXPECT_LE(before[0], after[0]);
+        EXPECT_LE(after[0], all.values[3 * pixel]);
+        EXPECT_EQ(all.values[3 * pixel + 2], 0) << "no blue leaves a yellow bowl";
+        brightest = std::max<double>(brightest, before[0]);
+        if (!lit[pixel]) {
+            darkest = std::max<double>(darkest, all.values[3 * pixel]);
+        }
+        // One bounce on the way meets the albedo twice: the light's own radiance once.
+        if (after[0] - before[0] > 1e-3f) {
+            const double ofLights = light.irradiance.x / light.irradiance.y;
+            ratio = (after[0] - before[0]) / (after[1] - before[1]) / ofLights;
+            EXPECT_NEAR(ratio, 0.9 * 0.9 / (0.5 * 0.5), 0.02);
+        }
+    }
+    EXPECT_GT(ratio, 0);
+    EXPECT_GT(darkest, 0.1 * brightest);
+    EXPECT_LT(many.sensor.gain, none.sensor.gain) << "exposed for what is there";
+}
+
+TEST(SynthScene, BouncesDoNotDependOnThreadsAndSpareConvexSolids)
+{
+    SynthOptions options = whiteBowl(3);
+    options.threads = 1;
+    const SynthScene one = makeSynthScene(options);
+    options.threads = 3;
+    const SynthScene three = makeSynthScene(options);
+    EXPECT_EQ(objectRadiance(one, one.lights[5], 1).values, objectRadiance(three, three.lights[5], 3).values);
+    EXPECT_EQ(one.sensor.gain, three.sensor.gain);
+    options.shape = SynthShape::sphere;
+    const SynthScene sphere = makeSynthScene(options);
+    options.bounces = 0;
+    const SynthScene plain = makeSynthScene(options);
+    EXPECT_EQ(objectRadiance(sphere, sphere.lights[5], 1).values, objectRadiance(plain, plain.lights[5], 1).values);
+}
+
 TEST(SynthScene, RefusesOptionsThatMakeNoCapture)
 {
     auto refused = [](auto change, const char* about) {
@@ -157,6 +214,13 @@ TEST(SynthScene, RefusesOptionsThatMakeNoCapture)
     refused([](SynthOptions& o) { o.lights = 0; }, "no lights");
     refused([](SynthOptions& o) { o.capDegrees = 90; }, "cap of lights");
     refused([](SynthOptions& o) { o.noise = -1; }, "noise");
+    refused([](SynthOptions& o) { o.bounces = -1; }, "bounces");
+    refused(
+        [](SynthOptions& o) {
+            o.bounces = 1;
+            o.width = 513;
+        },
+        "light that bounces");
     refused([](SynthOptions& o) { o.exposures = {1, 0}; }, "exposure time");
     refused([](SynthOptions& o) { o.material = "lambert:0"; }, "reflects no light");
     refused([](SynthOptions& o) { o.material = "tweed"; }, "tweed");

@@ -101,6 +101,57 @@ TEST(Stress, SweepsAreNamedAndGrowWorse)
     expectError([&] { normalSweeps(captureSubject(subject.clean, 1), {"layout"}); }, {"layout"}, Error::kUsage);
 }
 
+// The sweep's settings of these numbers.
+std::vector<StressRow> rowsAt(const std::string& sweep, const std::vector<size_t>& settings, NormalMethod method)
+{
+    SynthOptions options = smallOptions();
+    options.width = options.height = 40;
+    const StressSubject subject = syntheticSubject(options);
+    Sweep part = normalSweeps(subject, {sweep}).front();
+    std::vector<Sweep::Setting> chosen;
+    for (const size_t setting : settings) {
+        chosen.push_back(part.settings.at(setting));
+    }
+    part.settings = chosen;
+    return runSweeps(subject, {part}, {method}, {}, [](const std::string&, double) {});
+}
+
+TEST(Stress, PlacesThatAreToldMakeNearLightsHarmless)
+{
+    constexpr auto kMethod = NormalMethod::consensus;
+    const std::vector<StressRow> told = rowsAt("distance-told", {0, 3}, kMethod),
+                                 sought = rowsAt("distance-sought", {0, 3}, kMethod);
+    EXPECT_LT(told[0].error, 0.5);
+    EXPECT_LT(told[1].error, 2);
+    EXPECT_GT(sought[1].error, 2 * told[1].error);
+    EXPECT_EQ(told[1].setting, "5");
+    EXPECT_EQ(told[1].capture, "synthetic");
+    EXPECT_GT(told[1].angles.pixels, 600u);
+}
+
+TEST(Stress, PlacesAtTwentyWidthsCount)
+{
+    const std::vector<StressRow> told = rowsAt("distance-told", {1}, NormalMethod::consensus);
+    EXPECT_LT(told[0].error, 0.5);
+    EXPECT_EQ(told[0].said, Said::nothing) << told[0].warnings;
+}
+
+TEST(Stress, MattObjectsThatReflectMoreAreSeenWorse)
+{
+    const std::vector<StressRow> rows = rowsAt("interreflection", {0, 4}, NormalMethod::consensus);
+    EXPECT_LT(rows[0].error, 0.5);
+    EXPECT_GT(rows[1].error, 2 * rows[0].error);
+}
+
+TEST(Stress, ALensThatIsToldIsKnownToTheChain)
+{
+    const std::vector<StressRow> told = rowsAt("lens-told", {0, 2}, NormalMethod::consensus),
+                                 untold = rowsAt("lens-untold", {0, 2}, NormalMethod::consensus);
+    EXPECT_EQ(told[0].error, untold[0].error);
+    EXPECT_NE(told[1].error, untold[1].error);
+    EXPECT_LT(told[1].error, 1);
+}
+
 std::vector<StressRow> judged(std::vector<StressRow> rows)
 {
     judgeRows(rows, {1, 5});
