@@ -57,36 +57,56 @@ float liftAt(const Lifts& lifts, float x, float y)
     return weight > 0 ? sum / weight : 0.0f;
 }
 
-} // namespace
-
-Image fullHeight(const NormalMap& normals, const NormalMap& thinned, const Image& height, int spacing, int threads)
+// Of a map that is not thinned.
+Image placed(const NormalMap& normals, const Image& height, glm::ivec2 origin)
 {
-    if (spacing == 1) {
-        return height;
+    Image full(normals.width, normals.height, 1);
+    for (int y = 0; y < height.height; ++y) {
+        for (int x = 0; x < height.width; ++x) {
+            full.values[normals.index(origin.x + x, origin.y + y)] =
+                height.values[static_cast<size_t>(y) * height.width + x];
+        }
     }
-    Image full = heightFromNormals(normals, {.threads = threads}).height;
+    return full;
+}
+
+// From the normals' own height to the thinned map's.
+Lifts liftsOf(const NormalMap& normals, const Image& full, const NormalMap& thinned, const Image& height,
+              const Thinning& thinning)
+{
     Lifts lifts{thinned.width, thinned.height, std::vector<float>(thinned.normals.size(), 0.0f),
                 std::vector<float>(thinned.normals.size(), 0.0f)};
     for (int y = 0; y < thinned.height; ++y) {
         for (int x = 0; x < thinned.width; ++x) {
             const size_t i = thinned.index(x, y);
-            const size_t pixel = normals.index(std::min(normals.width - 1, x * spacing + spacing / 2),
-                                               std::min(normals.height - 1, y * spacing + spacing / 2));
             if (thinned.confidence[i] > 0) {
-                lifts.values[i] = static_cast<float>(spacing) * height.values[i] - full.values[pixel];
+                const glm::ivec2 middle = thinning.middleOf(x, y);
+                lifts.values[i] = static_cast<float>(thinning.spacing) * height.values[i] -
+                                  full.values[normals.index(middle.x, middle.y)];
                 lifts.weights[i] = 1;
             }
         }
     }
-    lifts = widened(widened(lifts));
+    return widened(widened(lifts));
+}
+
+} // namespace
+
+Image fullHeight(const NormalMap& normals, const NormalMap& thinned, const Image& height, const Thinning& thinning,
+                 int threads)
+{
+    if (thinning.spacing == 1) {
+        return placed(normals, height, thinning.origin);
+    }
+    Image full = heightFromNormals(normals, {.threads = threads}).height;
+    const Lifts lifts = liftsOf(normals, full, thinned, height, thinning);
+    const glm::vec2 first(thinning.middleOf(0, 0));
     for (int y = 0; y < normals.height; ++y) {
         for (int x = 0; x < normals.width; ++x) {
             const size_t pixel = normals.index(x, y);
             if (normals.confidence[pixel] > 0) {
-                const auto place = [&](int whole) {
-                    return (static_cast<float>(whole) - static_cast<float>(spacing / 2)) / static_cast<float>(spacing);
-                };
-                full.values[pixel] += liftAt(lifts, place(x), place(y));
+                const glm::vec2 place = (glm::vec2(x, y) - first) / static_cast<float>(thinning.spacing);
+                full.values[pixel] += liftAt(lifts, place.x, place.y);
             }
         }
     }

@@ -1,9 +1,10 @@
 #include "acquisition/chain/cast_shadow_choice.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <numeric>
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include "acquisition/capture/observations.h"
@@ -27,7 +28,7 @@ constexpr int kBallSize = 64; // states need no more
 
 struct ThinnedGrid {
     LitGrid grid;
-    int spacing = 1;
+    Thinning thinning;
 };
 
 int spacingFor(size_t pixels, size_t lights)
@@ -35,16 +36,26 @@ int spacingFor(size_t pixels, size_t lights)
     return std::max(1, static_cast<int>(std::ceil(std::sqrt(static_cast<double>(pixels * lights) / kMostStates))));
 }
 
-// The middle pixels of squares, where they are shaded.
+// Of the shaded pixels' bounding box.
 ThinnedGrid emptyGrid(const Surface& surface, size_t pixels)
 {
     const NormalMap& normals = surface.normals;
+    glm::ivec2 first(normals.width, normals.height), end(0);
+    for (int y = 0; y < normals.height; ++y) {
+        for (int x = 0; x < normals.width; ++x) {
+            if (isShaded(surface, normals.index(x, y))) {
+                first = glm::min(first, glm::ivec2(x, y));
+                end = glm::max(end, glm::ivec2(x + 1, y + 1));
+            }
+        }
+    }
     ThinnedGrid thinned;
-    thinned.spacing = spacingFor(pixels, surface.lights.size());
-    const int spacing = thinned.spacing;
+    const int spacing = spacingFor(pixels, surface.lights.size());
+    thinned.thinning = {spacing, first};
+    const glm::ivec2 size = (end - first + spacing - 1) / spacing;
     LitGrid& grid = thinned.grid;
     grid.lights = lightDirections(surface);
-    grid.normals = NormalMap((normals.width + spacing - 1) / spacing, (normals.height + spacing - 1) / spacing);
+    grid.normals = NormalMap(size.x, size.y);
     grid.states.assign(grid.normals.normals.size() * grid.lights.size(), LightState::unknown);
     return thinned;
 }
@@ -60,17 +71,21 @@ void addBlock(const Surface& surface, const LightBalls& balls, const Observation
 {
     LitGrid& grid = thinned.grid;
     const size_t lights = grid.lights.size();
-    const int spacing = thinned.spacing;
+    const Thinning& thinning = thinned.thinning;
     parallelFor(block.pixels.size(), kStatesAtOnce, threads, [&](size_t first, size_t last) {
         std::vector<float> predicted(3 * lights);
         for (size_t p = first; p < last; ++p) {
             const uint32_t pixel = block.pixels[p];
-            const int x = static_cast<int>(pixel) % block.width, y = static_cast<int>(pixel) / block.width;
-            if (x % spacing != spacing / 2 || y % spacing != spacing / 2 || !isShaded(surface, pixel)) {
+            if (!isShaded(surface, pixel)) {
+                continue;
+            }
+            const glm::ivec2 place(static_cast<int>(pixel) % block.width, static_cast<int>(pixel) / block.width),
+                at = (place - thinning.origin) / thinning.spacing;
+            if (thinning.middleOf(at.x, at.y) != place) {
                 continue;
             }
             const glm::vec3& normal = surface.normals.normals[pixel];
-            const size_t node = grid.normals.index(x / spacing, y / spacing);
+            const size_t node = grid.normals.index(at.x, at.y);
             grid.normals.normals[node] = normal;
             grid.normals.confidence[node] = surface.normals.confidence[pixel];
             balls.predict(pixel, predicted);
@@ -110,13 +125,13 @@ struct HeightWithHorizon {
     HorizonMap horizon;
 };
 
-HeightWithHorizon heightBy(const NormalMap& normals, const ThinnedGrid& thinned, std::span<const size_t> by,
-                           int threads)
+// By one thread: several are found side by side.
+HeightWithHorizon heightBy(const NormalMap& normals, const ThinnedGrid& thinned, std::span<const size_t> by)
 {
     HeightWithHorizon result;
-    result.height = fullHeight(normals, thinned.grid.normals, heightFromShadows(thinned.grid, by, threads),
-                               thinned.spacing, threads);
-    result.horizon = horizonMap(normals, result.height, kHorizonAzimuths, threads);
+    result.height =
+        fullHeight(normals, thinned.grid.normals, heightFromShadows(thinned.grid, by, 1), thinned.thinning, 1);
+    result.horizon = horizonMap(normals, result.height, kHorizonAzimuths, 1);
     return result;
 }
 
@@ -133,7 +148,7 @@ void hideLights(const HorizonMap& horizon, std::span<const uint32_t> pixels, std
     }
 }
 
-// The lights of all folds but those of one part: a fold is of one part.
+// The lights of all folds but those of one part: a fold is of one part. All lights where there is no such part.
 std::vector<size_t> lightsWithout(const UnseenRows& unseen, size_t part)
 {
     std::vector<size_t> lights;
@@ -183,20 +198,21 @@ CastShadows findCastShadows(const Measurement& measurement, ObservationBlocks& b
         return shadows;
     }
     LeftOut hidden = shadows.leftOut;
-    for (size_t part = 0; part < kParts; ++part) {
-        const HeightWithHorizon unseen =
-            heightBy(surface.normals, thinned, lightsWithout(hidden.unseen, part), threads);
-        for (size_t fold = part; fold < hidden.unseen.folds.size(); fold += kParts) {
-            hideLights(unseen.horizon, hidden.rows.pixels, thinned.grid.lights, hidden.unseen.predicted[fold]);
+    std::array<HeightWithHorizon, kParts + 1> heights; // the last one has seen all lights
+    parallelFor(heights.size(), 1, threads, [&](size_t first, size_t last) {
+        for (size_t part = first; part < last; ++part) {
+            heights[part] = heightBy(surface.normals, thinned, lightsWithout(hidden.unseen, part));
         }
+    });
+    for (size_t fold = 0; fold < hidden.unseen.folds.size(); ++fold) {
+        hideLights(heights[fold % kParts].horizon, hidden.rows.pixels, thinned.grid.lights,
+                   hidden.unseen.predicted[fold]);
     }
     report.psnr = predictedPsnr(surface, shadows.leftOut, layer);
     report.shadowedPsnr = predictedPsnr(surface, hidden, layer);
     report.areKept = report.shadowedPsnr > report.psnr + kShadowMargin;
     if (report.areKept) {
-        std::vector<size_t> all(thinned.grid.lights.size());
-        std::iota(all.begin(), all.end(), size_t{0});
-        HeightWithHorizon whole = heightBy(surface.normals, thinned, all, threads);
+        HeightWithHorizon& whole = heights.back();
         hideLights(whole.horizon, hidden.rows.pixels, thinned.grid.lights, hidden.rows.predicted);
         shadows.height = std::move(whole.height);
         shadows.horizon = std::move(whole.horizon);

@@ -167,9 +167,9 @@ TEST(ShadowHeight, StepsOfAThinnedMapStandInTheWholeOne)
 {
     const int spacing = 2;
     const Image thinned = blockHeight(kTall / spacing, kSide / spacing);
-    const Image full = fullHeight(flatNormals(), flatNormals(kSide / spacing), thinned, spacing, 1);
+    const Image full = fullHeight(flatNormals(), flatNormals(kSide / spacing), thinned, {spacing}, 1);
     EXPECT_NEAR(stepOf(full), kTall, 1); // ramps of a thinned pixel's width
-    EXPECT_EQ(fullHeight(flatNormals(), flatNormals(), blockHeight(kTall), 1, 1).values, blockHeight(kTall).values);
+    EXPECT_EQ(fullHeight(flatNormals(), flatNormals(), blockHeight(kTall), {}, 1).values, blockHeight(kTall).values);
 }
 
 TEST(LightState, IsToldByRadianceAndCosine)
