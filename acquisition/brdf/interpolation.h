@@ -18,6 +18,7 @@ struct InterpolationOptions {
     int k = 25;             // neighbours, 1 to kMostNeighbours
     SampleMetric metric{};  // local-linear
     bool automatic = false; // k and metric by held-out samples, see interpolation_choice.h
+    bool completed = false; // local-linear in half-difference coordinates: by a prior over materials, see completion.h
     int threads = 0;
 };
 
