@@ -8,6 +8,7 @@
 #include <glm/geometric.hpp>
 
 #include "acquisition/brdf/local_linear.h"
+#include "engine/files/measures.h"
 #include "engine/files/parallel_for.h"
 
 namespace nacre {
@@ -17,6 +18,9 @@ namespace {
 const glm::ivec2 kBorderSize(90, 23);
 constexpr float kInnerShare = 0.7f;
 constexpr size_t kMostTrustJudges = 2000;
+// Of the expected error, see completion.h; distances and normals in radians.
+constexpr float kLeastToldError = 0.02f, kOfDeviation = 2, kOfMove = 0.3f, kOfDistance = 0.2f, kOfNormals = 0.02f;
+constexpr float kLeastToldCosine = 0.05f;
 // Keeps logarithms finite.
 constexpr float kLeastValue = 1e-9f;
 
@@ -49,15 +53,9 @@ float fadeAt(float distance)
     return std::exp(-0.5f * share * share);
 }
 
-// The prior's value and the border's, the ratio of which trust is the exponent of.
-struct Extrapolation {
-    glm::vec3 border, prior;
-    float nearest; // radians
-};
-
 // r: the ratio to the prior at the border, that is at the least of unit's thetaD and `reach`.
-Extrapolation extrapolated(const TableDomain& domain, const ConditionedPrior& prior, const InterpolatedValue& r,
-                           float reach, const glm::vec3& unit)
+CompletedBrdf::Extrapolation extrapolated(const TableDomain& domain, const ConditionedPrior& prior,
+                                          const InterpolatedValue& r, float reach, const glm::vec3& unit)
 {
     const glm::vec3 border(unit.x, std::min(unit.y, reach), unit.z);
     const float nearest = glm::length(glm::vec2(r.nearest, (unit.y - border.y) * domain.thetaDMax));
@@ -137,9 +135,22 @@ InterpolatedValue CompletedBrdf::ratioAtBorder(const glm::vec3& unit) const
 InterpolatedValue CompletedBrdf::evaluate(const glm::vec3& unit) const
 {
     const bool isBeyond = unit.y > reach_;
-    const Extrapolation e = extrapolated(domain_, prior_, isBeyond ? ratioAtBorder(unit) : ratio_(unit), reach_, unit);
+    const CompletedBrdf::Extrapolation e =
+        extrapolated(domain_, prior_, isBeyond ? ratioAtBorder(unit) : ratio_(unit), reach_, unit);
     const glm::vec3 value = isBeyond ? powerOf(e.border, 1 - trust_) * powerOf(e.prior, trust_) : e.prior;
-    return {value, e.nearest};
+    return {value, e.nearest, expectedError(unit, e, value)};
+}
+
+float CompletedBrdf::expectedError(const glm::vec3& unit, const Extrapolation& e, const glm::vec3& value) const
+{
+    const float fade = fadeAt(e.nearest), misfit = prior_.misfit * prior_.misfit;
+    const float faded = (1 - fade * fade) * (prior_.variance(domain_, unit) + misfit);
+    const float moved = std::log(std::max(greyOf(value), kLeastValue) / std::max(greyOf(e.border), kLeastValue));
+    const LightView d = directionsFromUnit(domain_, unit);
+    const float cosine = std::clamp(std::min(d.l.z, d.v.z), kLeastToldCosine, 1.0f);
+    const auto square = [](float x) { return x * x; };
+    return std::sqrt(square(kLeastToldError) + square(kOfDeviation) * faded + square(kOfMove * moved) +
+                     square(kOfDistance * e.nearest) + misfit + square(kOfNormals) * (1 / square(cosine) - 1));
 }
 
 float trustInPrior(const BrdfSamples& samples, const InterpolationOptions& options, const MaterialPrior& prior)
@@ -156,8 +167,8 @@ float trustInPrior(const BrdfSamples& samples, const InterpolationOptions& optio
     const size_t step = std::max<size_t>(1, judges.size() / kMostTrustJudges);
     double gained = 0, moved = 0;
     for (size_t i = 0; i < judges.size(); i += step) {
-        const Extrapolation e = extrapolated(judges.domain, conditioned,
-                                             ratio({judges.unit[i].x, reach, judges.unit[i].z}), reach, judges.unit[i]);
+        const CompletedBrdf::Extrapolation e = extrapolated(
+            judges.domain, conditioned, ratio({judges.unit[i].x, reach, judges.unit[i].z}), reach, judges.unit[i]);
         const auto logOf = [](const glm::vec3& v) { return glm::log(glm::max(v, glm::vec3(kLeastValue))); };
         const glm::vec3 start = logOf(e.border), move = logOf(e.prior) - start;
         gained += weights[i] * glm::dot(logOf(judges.values[i]) - start, move);

@@ -11,9 +11,18 @@ namespace nacre {
 // so that what was measured stands, and what the prior misses of it fades without a seam. Beyond the largest thetaD
 // that was measured this is mixed, in logarithms, with f at that thetaD by the trust that the samples themselves show
 // in the prior: see trustInPrior. Never negative; symmetric as the coordinates are.
+// Its expected relative error adds squares: of the prior's deviation and misfit, as the ratio fades; of the move beyond
+// the measured thetaD; of the distance; of the misfit everywhere; of normals, d theta tan theta of the direction nearer
+// to the horizon. The weights are chosen on ABC fits.
 class CompletedBrdf {
 public:
     static constexpr float kFade = 0.35f; // radians
+
+    // Of f at unit coordinates: at the largest measured thetaD if they are beyond it, and as the prior has it.
+    struct Extrapolation {
+        glm::vec3 border, prior;
+        float nearest; // radians
+    };
 
     // samples: usable and condensed ones in half-difference coordinates, one at least.
     CompletedBrdf(const BrdfSamples& samples, const InterpolationOptions& options, const MaterialPrior& prior);
@@ -29,6 +38,7 @@ private:
     float trust_ = 1;
 
     InterpolatedValue ratioAtBorder(const glm::vec3& unit) const;
+    float expectedError(const glm::vec3& unit, const Extrapolation& e, const glm::vec3& value) const;
 };
 
 // The share of the prior, in [0, 1], by which samples beyond 0.7 of the largest thetaD are predicted best from those

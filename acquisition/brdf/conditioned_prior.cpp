@@ -8,6 +8,8 @@
 #include <glm/common.hpp>
 #include <glm/exponential.hpp>
 
+#include "engine/files/measures.h"
+
 namespace nacre {
 
 namespace {
@@ -24,11 +26,6 @@ constexpr float kLeastChannel = 1e-4f;
 
 using RowMajor = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-float greyLevel(const glm::vec3& v)
-{
-    return (v.x + v.y + v.z) / 3;
-}
-
 float lesserCosine(const LightView& d)
 {
     return std::clamp(std::min(d.l.z, d.v.z), kLeastMeasuredCosine, 1.0f);
@@ -39,7 +36,7 @@ float brightLevel(const BrdfSamples& samples)
 {
     std::vector<float> radiance(samples.size());
     for (size_t i = 0; i < samples.size(); ++i) {
-        radiance[i] = greyLevel(samples.values[i]) * directionsFromUnit(samples.domain, samples.unit[i]).l.z;
+        radiance[i] = greyOf(samples.values[i]) * directionsFromUnit(samples.domain, samples.unit[i]).l.z;
     }
     const auto bright = radiance.begin() + static_cast<std::ptrdiff_t>(radiance.size() * 99 / 100);
     std::nth_element(radiance.begin(), bright, radiance.end());
@@ -63,7 +60,7 @@ std::vector<NodeSamples> samplesByNode(const BrdfSamples& samples, float bright)
 {
     std::vector<NodeSamples> nodes(static_cast<size_t>(kPriorSize.x) * kPriorSize.y * kPriorSize.z);
     for (size_t i = 0; i < samples.size(); ++i) {
-        const float grey = greyLevel(samples.values[i]);
+        const float grey = greyOf(samples.values[i]);
         if (!(grey > 0)) {
             continue;
         }
@@ -126,7 +123,7 @@ ConditionedPrior conditionedPrior(const MaterialPrior& prior, const BrdfSamples&
             rest += around.weight[corner] * prior.rest[around.node[corner]];
         }
         const float cosine = lesserCosine(directionsFromUnit(samples.domain, unit));
-        const float grey = greyLevel(glm::exp(glm::vec3(node.logValue)));
+        const float grey = greyOf(glm::exp(glm::vec3(node.logValue)));
         weights(i) = 1 / (kLeastError * kLeastError + squaredError(grey, cosine, bright) + rest);
         y.row(i) << static_cast<float>(node.logValue.x) - mean, static_cast<float>(node.logValue.y) - mean,
             static_cast<float>(node.logValue.z) - mean;

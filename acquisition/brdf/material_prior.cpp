@@ -70,25 +70,20 @@ Eigen::VectorXf nodeWeights()
     return weights;
 }
 
-// Column by column log f less its mean over the weighted nodes; none of a channel that is black.
+// Material by material log f of its grey value, less its mean over the weighted nodes.
 Eigen::MatrixXf logColumns(const std::vector<BrdfTable>& tables, const Eigen::VectorXf& weights)
 {
-    Eigen::MatrixXf columns(weights.size(), 2 * static_cast<Eigen::Index>(tables.size()));
-    Eigen::Index count = 0;
-    for (const BrdfTable& table : tables) {
-        for (const int channel : {0, 2}) {
-            Eigen::VectorXf f(weights.size());
-            for (Eigen::Index i = 0; i < f.size(); ++i) {
-                f(i) = table.values[static_cast<size_t>(i)][channel];
-            }
-            const float peak = f.maxCoeff();
-            if (peak > 0) {
-                f = f.cwiseMax(kLeastShareOfPeak * peak).array().log();
-                columns.col(count++) = f.array() - f.dot(weights) / weights.sum();
-            }
+    Eigen::MatrixXf columns(weights.size(), static_cast<Eigen::Index>(tables.size()));
+    for (Eigen::Index column = 0; column < columns.cols(); ++column) {
+        Eigen::VectorXf f(weights.size());
+        for (Eigen::Index i = 0; i < f.size(); ++i) {
+            const vec3& value = tables[static_cast<size_t>(column)].values[static_cast<size_t>(i)];
+            f(i) = value.x + value.y + value.z;
         }
+        f = f.cwiseMax(kLeastShareOfPeak * f.maxCoeff()).array().log();
+        columns.col(column) = f.array() - f.dot(weights) / weights.sum();
     }
-    return columns.leftCols(count);
+    return columns;
 }
 
 } // namespace
@@ -144,7 +139,8 @@ const MaterialPrior& publishedMaterialPrior()
 
 PriorNodes priorNodesAt(const TableDomain& domain, const glm::vec3& unit)
 {
-    const vec3 place(unit.x, std::min(unit.y * domain.thetaDMax / kPriorDomain.thetaDMax, 1.0f), unit.z);
+    const vec3 stretched(unit.x, unit.y * domain.thetaDMax / kPriorDomain.thetaDMax, unit.z);
+    const vec3 place = glm::clamp(stretched, 0.0f, 1.0f);
     const vec3 position = place * vec3(kPriorSize - 1);
     const glm::ivec3 low = glm::clamp(glm::ivec3(glm::floor(position)), glm::ivec3(0), kPriorSize - 2);
     const vec3 t = position - vec3(low);

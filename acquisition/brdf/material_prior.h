@@ -28,7 +28,7 @@ struct MaterialPrior {
 // At most so many components, and one more: the free constant.
 inline constexpr int kPriorComponents = 40;
 
-// The principal components of these materials, red and blue each a material of its own. Two materials at least.
+// The principal components of these materials, by their grey values. Two materials at least, none of them black.
 MaterialPrior makeMaterialPrior(std::span<const BrdfModel> materials, int threads);
 
 // Of the published ABC and SGD fits of the MERL materials (Loew et al., 2012; Bagher et al., 2012). Made once.
