@@ -81,6 +81,58 @@ std::vector<NodeSamples> samplesByNode(const BrdfSamples& samples, float bright)
     return nodes;
 }
 
+// One row a node that has samples: log f - mean = A c, and its error's variance.
+struct PriorRows {
+    RowMajor A;
+    Eigen::Matrix<float, Eigen::Dynamic, 3> y;
+    Eigen::VectorXf variances;
+};
+
+PriorRows rowsOf(const MaterialPrior& prior, const Eigen::Map<const RowMajor>& components, const BrdfSamples& samples)
+{
+    const float bright = brightLevel(samples);
+    const std::vector<NodeSamples> seen = samplesByNode(samples, bright);
+    const auto count = static_cast<Eigen::Index>(seen.size());
+    PriorRows rows{RowMajor::Zero(count, components.cols()), Eigen::MatrixX3f(count, 3), Eigen::VectorXf(count)};
+    for (Eigen::Index i = 0; i < count; ++i) {
+        const NodeSamples& node = seen[static_cast<size_t>(i)];
+        const glm::vec3 unit(node.unit), logValue(node.logValue);
+        const PriorNodes around = priorNodesAt(samples.domain, unit);
+        float mean = 0, rest = 0;
+        for (int corner = 0; corner < 8; ++corner) {
+            rows.A.row(i) += around.weight[corner] * components.row(static_cast<Eigen::Index>(around.node[corner]));
+            mean += around.weight[corner] * prior.mean[around.node[corner]];
+            rest += around.weight[corner] * prior.rest[around.node[corner]];
+        }
+        const float cosine = lesserCosine(directionsFromUnit(samples.domain, unit));
+        rows.variances(i) = squaredError(greyOf(glm::exp(logValue)), cosine, bright) + rest;
+        rows.y.row(i) << logValue.x - mean, logValue.y - mean, logValue.z - mean;
+    }
+    return rows;
+}
+
+struct PriorFit {
+    Eigen::LLT<Eigen::MatrixXf> precision;
+    Eigen::Matrix<float, Eigen::Dynamic, 3> c;
+    float misfit = 0;
+};
+
+// least: the least error of a row.
+PriorFit fitRows(const PriorRows& rows, float least)
+{
+    const Eigen::VectorXf weights = (rows.variances.array() + least * least).inverse();
+    Eigen::MatrixXf precision = rows.A.transpose() * weights.asDiagonal() * rows.A;
+    precision.diagonal().array() += 1;
+    PriorFit fit;
+    fit.precision.compute(precision);
+    fit.c = fit.precision.solve(rows.A.transpose() * weights.asDiagonal() * rows.y);
+    if (weights.size() > 0) {
+        const float squares = (rows.y - rows.A * fit.c).rowwise().squaredNorm().dot(weights) / 3;
+        fit.misfit = std::sqrt(squares / weights.sum());
+    }
+    return fit;
+}
+
 } // namespace
 
 glm::vec3 ConditionedPrior::evaluate(const TableDomain& domain, const glm::vec3& unit) const
@@ -105,46 +157,20 @@ float ConditionedPrior::variance(const TableDomain& domain, const glm::vec3& uni
 
 ConditionedPrior conditionedPrior(const MaterialPrior& prior, const BrdfSamples& samples)
 {
-    const float bright = brightLevel(samples);
-    const std::vector<NodeSamples> seen = samplesByNode(samples, bright);
-    const auto rows = static_cast<Eigen::Index>(seen.size()), nodes = static_cast<Eigen::Index>(prior.mean.size());
+    const auto nodes = static_cast<Eigen::Index>(prior.mean.size());
     const Eigen::Map<const RowMajor> components(prior.components.data(), nodes, prior.componentCount);
-    RowMajor A = RowMajor::Zero(rows, prior.componentCount);
-    Eigen::Matrix<float, Eigen::Dynamic, 3> y(rows, 3);
-    Eigen::VectorXf weights(rows);
-    for (Eigen::Index i = 0; i < rows; ++i) {
-        const NodeSamples& node = seen[static_cast<size_t>(i)];
-        const glm::vec3 unit(node.unit);
-        const PriorNodes around = priorNodesAt(samples.domain, unit);
-        float mean = 0, rest = 0;
-        for (int corner = 0; corner < 8; ++corner) {
-            A.row(i) += around.weight[corner] * components.row(static_cast<Eigen::Index>(around.node[corner]));
-            mean += around.weight[corner] * prior.mean[around.node[corner]];
-            rest += around.weight[corner] * prior.rest[around.node[corner]];
-        }
-        const float cosine = lesserCosine(directionsFromUnit(samples.domain, unit));
-        const float grey = greyOf(glm::exp(glm::vec3(node.logValue)));
-        weights(i) = 1 / (kLeastError * kLeastError + squaredError(grey, cosine, bright) + rest);
-        y.row(i) << static_cast<float>(node.logValue.x) - mean, static_cast<float>(node.logValue.y) - mean,
-            static_cast<float>(node.logValue.z) - mean;
-    }
-    Eigen::MatrixXf precision = A.transpose() * weights.asDiagonal() * A;
-    precision.diagonal().array() += 1;
-    const Eigen::LLT<Eigen::MatrixXf> solver(precision);
-    const Eigen::Matrix<float, Eigen::Dynamic, 3> c = solver.solve(A.transpose() * weights.asDiagonal() * y);
-    const Eigen::Matrix<float, Eigen::Dynamic, 3> left = y - A * c;
-    const Eigen::Matrix<float, Eigen::Dynamic, 3> values = components * c;
-    const RowMajor spread = components * solver.solve(Eigen::MatrixXf::Identity(c.rows(), c.rows()));
+    const PriorRows rows = rowsOf(prior, components, samples);
+    // Where the components cannot tell the samples, they are not bent to them.
+    const PriorFit fit = fitRows(rows, std::max(kLeastError, fitRows(rows, kLeastError).misfit));
+    const Eigen::Matrix<float, Eigen::Dynamic, 3> values = components * fit.c;
+    const RowMajor spread = components * fit.precision.solve(Eigen::MatrixXf::Identity(fit.c.rows(), fit.c.rows()));
     ConditionedPrior conditioned;
     for (Eigen::Index i = 0; i < nodes; ++i) {
         const auto node = static_cast<size_t>(i);
         conditioned.logValues.push_back(prior.mean[node] + glm::vec3(values(i, 0), values(i, 1), values(i, 2)));
         conditioned.variances.push_back(spread.row(i).dot(components.row(i)) + prior.rest[node]);
     }
-    if (rows > 0) {
-        const float squares = left.rowwise().squaredNorm().dot(weights) / 3;
-        conditioned.misfit = std::sqrt(squares / weights.sum());
-    }
+    conditioned.misfit = fit.misfit;
     return conditioned;
 }
 
