@@ -2,6 +2,7 @@
 
 #include <memory>
 
+#include "acquisition/brdf/completion.h"
 #include "acquisition/brdf/kernel_regression.h"
 #include "acquisition/brdf/local_linear.h"
 #include "acquisition/brdf/sample_cells.h"
@@ -34,8 +35,12 @@ BrdfInterpolant makeInterpolant(const BrdfSamples& samples, const InterpolationO
         const auto regression = std::make_shared<const KernelRegression>(samples, options.k);
         return [regression](const glm::vec3& unit) { return regression->evaluate(unit); };
     }
-    const auto regression = std::make_shared<const LocalLinearRegression>(
-        condensedSamples(usableSamples(samples), options.threads), options.metric, options.k);
+    const BrdfSamples cells = condensedSamples(usableSamples(samples), options.threads);
+    if (options.completed && samples.domain.coordinates == kHalfDifference) {
+        const auto whole = std::make_shared<const CompletedBrdf>(cells, options, publishedMaterialPrior());
+        return [whole](const glm::vec3& unit) { return whole->evaluate(unit); };
+    }
+    const auto regression = std::make_shared<const LocalLinearRegression>(cells, options.metric, options.k);
     return [regression](const glm::vec3& unit) { return regression->evaluate(unit); };
 }
 

@@ -18,6 +18,7 @@ struct InterpolationOptions {
     int k = 25;             // neighbours, 1 to kMostNeighbours
     SampleMetric metric{};  // local-linear
     bool automatic = false; // k and metric by held-out samples, see interpolation_choice.h
+    bool completed = false; // local-linear in half-difference coordinates: by a prior over materials, see completion.h
     int threads = 0;
 };
 
@@ -26,6 +27,7 @@ inline constexpr int kMostNeighbours = 512;
 struct InterpolatedValue {
     glm::vec3 value{0};
     float nearest = 0; // radians to the nearest sample
+    float error = 0;   // expected, relative (Coverage); 0 where nobody tells
 };
 
 // f at unit coordinates of the samples' domain; beyond the samples it is extrapolated, and `nearest` says how far.

@@ -98,12 +98,14 @@ double errorOf(const Split& split, const InterpolationOptions& options)
 InterpolationChoice chooseInterpolation(const BrdfSamples& samples, const InterpolationOptions& start)
 {
     InterpolationChoice choice{start, 0, 0, 0};
+    choice.options.completed = false; // what lies between samples is judged
     const Split split = splitSamples(condensedSamples(usableSamples(samples), start.threads));
     choice.heldOut = split.judges.size();
     if (split.judges.size() == 0 || split.kept.size() == 0) {
+        choice.options.completed = start.completed;
         return choice;
     }
-    choice.error = choice.firstError = errorOf(split, start);
+    choice.error = choice.firstError = errorOf(split, choice.options);
     const auto consider = [&](const InterpolationOptions& candidate) {
         const double error = errorOf(split, candidate);
         if (error < kLeastGain * choice.error) {
@@ -128,6 +130,7 @@ InterpolationChoice chooseInterpolation(const BrdfSamples& samples, const Interp
         candidate.k = k;
         consider(candidate);
     }
+    choice.options.completed = start.completed;
     return choice;
 }
 

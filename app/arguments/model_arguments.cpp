@@ -21,6 +21,12 @@ void InterpolationArguments::addTo(CLI::App& command)
         ->option_text("N|auto")
         ->capture_default_str()
         ->group("BRDF");
+    command
+        .add_option("--unseen", unseen,
+                    "What stands where nothing was measured: prior (over published materials, given what was; for "
+                    "local-linear in half-difference coordinates) or nearest (samples)")
+        ->capture_default_str()
+        ->group("BRDF");
 }
 
 InterpolationOptions InterpolationArguments::options(int threads) const
@@ -29,6 +35,10 @@ InterpolationOptions InterpolationArguments::options(int threads) const
     options.method = interpolationMethodFromName(method);
     options.threads = threads;
     options.automatic = k == "auto";
+    if (unseen != "prior" && unseen != "nearest") {
+        throw Error("", "--unseen " + unseen + " is unknown", "prior or nearest", Error::kUsage);
+    }
+    options.completed = unseen == "prior" && options.method == InterpolationMethod::localLinear;
     if (!options.automatic) {
         if (k.empty() || k.size() > 6 || k.find_first_not_of("0123456789") != std::string::npos) {
             throw Error("", "--k " + k + " is not understood", "a number of samples, or auto", Error::kUsage);

@@ -10,10 +10,11 @@
 
 namespace nacre {
 
-// How a table is filled from samples: --interpolation, --k.
+// How a table is filled from samples: --interpolation, --k, --unseen.
 struct InterpolationArguments {
     std::string method = nameOf(InterpolationOptions{}.method);
     std::string k = std::to_string(InterpolationOptions{}.k);
+    std::string unseen = "prior";
 
     void addTo(CLI::App& command);
     InterpolationOptions options(int threads) const; // throws usage Errors

@@ -28,7 +28,7 @@ struct AcquireArguments {
     LadderArguments ladder;
     ResidualArguments residual;
     std::filesystem::path report;
-    std::string range = "captured";
+    std::string range; // empty: front where unseen parts are completed, else captured
 };
 
 AcquireOptions optionsOf(const AcquireArguments& arguments)
@@ -39,7 +39,8 @@ AcquireOptions optionsOf(const AcquireArguments& arguments)
     options.ladder = arguments.ladder.options(options.interpolation.threads);
     options.residual = arguments.residual.options(options.ladder);
     options.castShadows = arguments.residual.castShadows();
-    options.bake.range = tableRangeFromName(arguments.range);
+    const char* known = options.interpolation.completed ? "front" : "captured";
+    options.bake.range = tableRangeFromName(arguments.range.empty() ? known : arguments.range);
     if (arguments.coordinates != "half-difference" && arguments.coordinates != "natural") {
         throw Error("", fmt::format("--coordinates {} are not known", arguments.coordinates),
                     "half-difference or natural", Error::kUsage);
@@ -131,8 +132,7 @@ void addAcquireCommand(CLI::App& app)
     command
         ->add_option("--range", arguments->range,
                      "Range of thetaD in the table: captured, front (45 degrees) or full (90); what was not captured "
-                     "is extrapolated")
-        ->capture_default_str()
+                     "is extrapolated (default: front, captured with --unseen nearest)")
         ->group("BRDF");
     arguments->ladder.addTo(*command);
     arguments->residual.addTo(*command);

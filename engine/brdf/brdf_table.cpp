@@ -44,10 +44,12 @@ template <class Visit> void forEachTexel(const glm::ivec3& size, Visit&& visit)
     }
 }
 
-Image loadAtlas(const std::filesystem::path& file, const glm::ivec3& size, int channels)
+// Of `channels` channels, or up to so many more.
+Image loadAtlas(const std::filesystem::path& file, const glm::ivec3& size, int channels, int more = 0)
 {
     Image atlas = loadImage(file);
-    if (atlas.width != size.x * size.z || atlas.height != size.y || atlas.channels != channels) {
+    if (atlas.width != size.x * size.z || atlas.height != size.y || atlas.channels < channels ||
+        atlas.channels > channels + more) {
         throw Error(file, fmt::format("is {}x{} with {} channels", atlas.width, atlas.height, atlas.channels),
                     fmt::format("{}x{} with {}: slices of {}x{}", size.x * size.z, size.y, channels, size.x, size.y));
     }
@@ -113,22 +115,31 @@ BrdfTable loadBrdfTable(const std::filesystem::path& file)
 
 void saveCoverage(const std::filesystem::path& file, const glm::ivec3& size, const Coverage& coverage)
 {
-    Image atlas(size.x * size.z, size.y, 2);
+    const bool knowsError = !coverage.error.empty();
+    Image atlas(size.x * size.z, size.y, knowsError ? 3 : 2);
     forEachTexel(size, [&](size_t texel, int x, int y) {
         atlas.at(x, y, 0) = coverage.distance[texel];
         atlas.at(x, y, 1) = coverage.count[texel];
+        if (knowsError) {
+            atlas.at(x, y, 2) = coverage.error[texel];
+        }
     });
     saveImage(file, atlas, PixelType::float32);
 }
 
 Coverage loadCoverage(const std::filesystem::path& file, const glm::ivec3& size)
 {
-    const Image atlas = loadAtlas(file, size, 2);
+    const Image atlas = loadAtlas(file, size, 2, 1);
+    const bool knowsError = atlas.channels == 3;
     const size_t texels = static_cast<size_t>(size.x) * size.y * size.z;
-    Coverage coverage{std::vector<float>(texels), std::vector<float>(texels)};
+    Coverage coverage{std::vector<float>(texels), std::vector<float>(texels),
+                      std::vector<float>(knowsError ? texels : 0)};
     forEachTexel(size, [&](size_t texel, int x, int y) {
         coverage.distance[texel] = atlas.at(x, y, 0);
         coverage.count[texel] = atlas.at(x, y, 1);
+        if (knowsError) {
+            coverage.error[texel] = atlas.at(x, y, 2);
+        }
     });
     return coverage;
 }

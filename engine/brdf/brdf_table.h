@@ -33,6 +33,8 @@ struct BrdfTable {
 struct Coverage {
     std::vector<float> distance; // radians to the nearest sample, in raw angles
     std::vector<float> count;    // samples nearest to the texel
+    // Expected relative error of f: nine of ten texels lie within theirs. Empty where nobody tells.
+    std::vector<float> error{};
 };
 
 struct BrdfValue {
@@ -54,7 +56,7 @@ std::string describeShape(const BrdfTable& table);
 void saveBrdfTable(const std::filesystem::path& file, const BrdfTable& table);
 BrdfTable loadBrdfTable(const std::filesystem::path& file);
 
-// The same atlas with two channels: distance, count.
+// The same atlas with two channels, distance and count, and a third, error, where it is known.
 void saveCoverage(const std::filesystem::path& file, const glm::ivec3& size, const Coverage& coverage);
 Coverage loadCoverage(const std::filesystem::path& file, const glm::ivec3& size);
 
