@@ -238,7 +238,8 @@ void ExportArguments::addTo(CLI::App& command)
         ->capture_default_str();
     command.add_option("--exposure", exposure,
                        "Exposure of --ptm and --rti-web in stops (default: 99th percentile over all lights at 0.9)");
-    command.add_flag("--shadows", shadows, "Cast shadows, from the surface's height");
+    command.add_flag("--shadows", shadows,
+                     "Cast shadows, from the surface's height; always where it explains the photographs'");
     command.add_option("--size", size, "Size in pixels that the surface is fitted into, WxH (default: its own)");
     command.add_option("--threads", threads, "Number of threads (default: all)");
     command.add_flag("--quiet", quiet, "No summary");
@@ -300,7 +301,8 @@ Surface surfaceToExport(const ExportArguments& arguments)
         throw Error(arguments.surface, "is a target without a material",
                     "a surface of nacre acquire; of a target, --write-normals alone can be exported");
     }
-    if (arguments.shadows) { // before pixels are repeated, which would make stairs of the height
+    if (arguments.shadows ||
+        surface.castsShadows) { // before pixels are repeated, which would make stairs of the height
         castShadows(surface, arguments.surface);
     }
     if (!arguments.size.empty()) {

@@ -55,7 +55,8 @@ void printSurface(const std::filesystem::path& folder)
     }
     if (!surface.height.values.empty()) {
         const auto [lowest, highest] = std::minmax_element(surface.height.values.begin(), surface.height.values.end());
-        fmt::print("height       {:.1f} to {:.1f} pixels\n", *lowest, *highest);
+        fmt::print("height       {:.1f} to {:.1f} pixels{}\n", *lowest, *highest,
+                   surface.castsShadows ? ", casts shadows" : "");
     }
     if (!surface.residual.empty()) {
         fmt::print("residual     {} components, {:.1f} KiB, trusts the BRDF by {:.0f} %, of {} lights\n",

@@ -116,12 +116,14 @@ TEST_F(DeterminismTest, RenderTwice)
 
 // Float photographs without noise of a Lambertian solid under given lights leave nothing to interpolate or to guess:
 // only the rounding of the chain is left. A renderer that is held to 1e-5 of the peak reaches 100 dB (145 dB are
-// measured). `consensus` finds such normals exactly, since it leaves out what is in shadow.
+// measured). `consensus` finds such normals exactly, since it leaves out what is in shadow. A prior, which other
+// materials bend, rounds at 91 dB.
 TEST_F(DeterminismTest, ExactLambertIsGivenBack)
 {
     synth("capture", {"--material", "lambert:0.5,0.3,0.2", "--noise", "0", "--format", "exr", "--give-lights",
                       "--no-shadows", "--lights", "24"});
-    run({"acquire", path("capture"), "--normals", "consensus", "--quiet", "-o", path("s.nacre")});
+    run({"acquire", path("capture"), "--normals", "consensus", "--unseen", "nearest", "--quiet", "-o",
+         path("s.nacre")});
     for (const std::string number : {"1", "12", "24"}) {
         SCOPED_TRACE(number);
         const std::string padded = number.size() < 2 ? "0" + number : number;

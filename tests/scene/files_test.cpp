@@ -209,6 +209,21 @@ TEST(SurfaceFiles, RoundTripAndReplacement)
     EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 1) << "a temporary stayed";
 }
 
+TEST(SurfaceFiles, ShadowsAreCastByHeightsAlone)
+{
+    const TempFolder folder;
+    Surface surface = transferredSurface(sphereNormalMap(16), {"m", smallTable(), {}});
+    surface.height = Image(16, 16, 1, 2.0f);
+    surface.castsShadows = true;
+    saveSurface(folder / "s.nacre", surface, false);
+    const Surface back = loadSurface(folder / "s.nacre");
+    EXPECT_TRUE(back.castsShadows);
+    EXPECT_EQ(back.height.values, surface.height.values);
+    surface.height = {};
+    saveSurface(folder / "s.nacre", surface, true);
+    expectError([&] { loadSurface(folder / "s.nacre"); }, {"surface.json", "shadows", "no heights"});
+}
+
 TEST(SurfaceFiles, DamageIsNamed)
 {
     const TempFolder folder;
