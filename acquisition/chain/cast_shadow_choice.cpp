@@ -1,7 +1,6 @@
 #include "acquisition/chain/cast_shadow_choice.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include <glm/common.hpp>
@@ -120,19 +119,10 @@ double castShareOf(const LitGrid& grid)
     return facing > 0 ? cast / facing : 0.0;
 }
 
-struct HeightWithHorizon {
-    Image height;
-    HorizonMap horizon;
-};
-
 // By one thread: several are found side by side.
-HeightWithHorizon heightBy(const NormalMap& normals, const ThinnedGrid& thinned, std::span<const size_t> by)
+Image heightBy(const NormalMap& normals, const ThinnedGrid& thinned, std::span<const size_t> by)
 {
-    HeightWithHorizon result;
-    result.height =
-        fullHeight(normals, thinned.grid.normals, heightFromShadows(thinned.grid, by, 1), thinned.thinning, 1);
-    result.horizon = horizonMap(normals, result.height, kHorizonAzimuths, 1);
-    return result;
+    return fullHeight(normals, thinned.grid.normals, heightFromShadows(thinned.grid, by, 1), thinned.thinning, 1);
 }
 
 // Rows of the pixels' predictions where the horizon hides lights.
@@ -198,24 +188,25 @@ CastShadows findCastShadows(const Measurement& measurement, ObservationBlocks& b
         return shadows;
     }
     LeftOut hidden = shadows.leftOut;
-    std::array<HeightWithHorizon, kParts + 1> heights; // the last one has seen all lights
-    parallelFor(heights.size(), 1, threads, [&](size_t first, size_t last) {
-        for (size_t part = first; part < last; ++part) {
-            heights[part] = heightBy(surface.normals, thinned, lightsWithout(hidden.unseen, part));
+    Image whole; // has seen all lights
+    parallelFor(kParts + 1, 1, threads, [&](size_t part, size_t) {
+        Image height = heightBy(surface.normals, thinned, lightsWithout(hidden.unseen, part));
+        if (part == kParts) {
+            whole = std::move(height);
+            return;
+        }
+        const HorizonMap horizon = horizonMap(surface.normals, height, kHorizonAzimuths, 1);
+        for (size_t fold = part; fold < hidden.unseen.folds.size(); fold += kParts) {
+            hideLights(horizon, hidden.rows.pixels, thinned.grid.lights, hidden.unseen.predicted[fold]);
         }
     });
-    for (size_t fold = 0; fold < hidden.unseen.folds.size(); ++fold) {
-        hideLights(heights[fold % kParts].horizon, hidden.rows.pixels, thinned.grid.lights,
-                   hidden.unseen.predicted[fold]);
-    }
     report.psnr = predictedPsnr(surface, shadows.leftOut, layer);
     report.shadowedPsnr = predictedPsnr(surface, hidden, layer);
     report.areKept = report.shadowedPsnr > report.psnr + kShadowMargin;
     if (report.areKept) {
-        HeightWithHorizon& whole = heights.back();
-        hideLights(whole.horizon, hidden.rows.pixels, thinned.grid.lights, hidden.rows.predicted);
-        shadows.height = std::move(whole.height);
-        shadows.horizon = std::move(whole.horizon);
+        shadows.horizon = horizonMap(surface.normals, whole, kHorizonAzimuths, threads);
+        hideLights(shadows.horizon, hidden.rows.pixels, thinned.grid.lights, hidden.rows.predicted);
+        shadows.height = std::move(whole);
         shadows.leftOut = std::move(hidden);
     }
     return shadows;
