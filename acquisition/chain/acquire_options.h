@@ -29,7 +29,7 @@ struct AcquireOptions {
     bool estimateDistance = false;
     // Light that the object throws on itself, where auto and exemplar find any; the other methods are as published.
     bool removeSelfLight = true;
-    bool castShadows = true;   // of the object on itself, in what the surface predicts, where it gains by them
+    bool castShadows = false;  // of the object on itself, in what the surface predicts, where it gains by them
     bool keepVerdicts = false; // of every observation, for pictures of them
 
     void setThreads(int threads)

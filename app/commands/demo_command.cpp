@@ -156,6 +156,7 @@ void runDemo(const DemoArguments& arguments)
     AcquireOptions options;
     options.setThreads(arguments.threads);
     options.residual = ResidualArguments{}.options(options.ladder);
+    options.castShadows = ResidualArguments{}.castShadows();
     const Acquisition result = acquire(capture, options, progressLine(arguments.quiet));
     endProgressLine(arguments.quiet);
     saveSurface(output.temporary() / "demo.nacre", result.surface, false);

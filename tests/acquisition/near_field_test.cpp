@@ -211,7 +211,6 @@ TEST(NearField, TheChainRelightsUnderNearLights)
     writeSynthCapture(folder / "c", makeSynthScene(nearCapture()), false);
     AcquireOptions acquiring;
     acquiring.residual.choice = ResidualChoice::automatic;
-    acquiring.castShadows = false; // under near lights none are predicted
     CaptureOptions far;
     far.lightDistance = std::numeric_limits<double>::infinity();
     const Acquisition placed = acquire(loadCapture(folder / "c"), acquiring, kSilent),

@@ -139,10 +139,14 @@ TEST(SyntheticChainSlow, SameBytesForOneAndTwoThreadsAndAnyBudget)
     two.setThreads(2);
     one.bake.size = two.bake.size = {24, 8, 8};
     two.byteBudget = 64 << 10; // many blocks
+    one.castShadows = two.castShadows = true;
     const Acquisition a = acquire(capture, one, kNoProgress), b = acquire(capture, two, kNoProgress);
     EXPECT_EQ(a.surface.normals.normals, b.surface.normals.normals);
     EXPECT_EQ(a.surface.materials[0].table.values, b.surface.materials[0].table.values);
     EXPECT_EQ(a.surface.materials[0].table.confidence, b.surface.materials[0].table.confidence);
+    EXPECT_GT(a.shadows.castShare, 0);
+    EXPECT_EQ(a.shadows.shadowedPsnr, b.shadows.shadowedPsnr);
+    EXPECT_EQ(a.surface.height.values, b.surface.height.values);
 }
 
 } // namespace

@@ -120,10 +120,10 @@ TEST(Stress, PlacesThatAreToldMakeNearLightsHarmless)
 {
     constexpr auto kMethod = NormalMethod::consensus;
     const std::vector<StressRow> told = rowsAt("distance-told", {0, 3}, kMethod),
-                                 sought = rowsAt("distance-sought", {0, 3}, kMethod);
+                                 sought = rowsAt("distance-sought", {3}, kMethod);
     EXPECT_LT(told[0].error, 0.5);
     EXPECT_LT(told[1].error, 2);
-    EXPECT_GT(sought[1].error, 2 * told[1].error);
+    EXPECT_GT(sought[0].error, 2 * told[1].error);
     EXPECT_EQ(told[1].setting, "5");
     EXPECT_EQ(told[1].capture, "synthetic");
     EXPECT_GT(told[1].angles.pixels, 600u);
@@ -145,11 +145,10 @@ TEST(Stress, MattObjectsThatReflectMoreAreSeenWorse)
 
 TEST(Stress, ALensThatIsToldIsKnownToTheChain)
 {
-    const std::vector<StressRow> told = rowsAt("lens-told", {0, 2}, NormalMethod::consensus),
-                                 untold = rowsAt("lens-untold", {0, 2}, NormalMethod::consensus);
-    EXPECT_EQ(told[0].error, untold[0].error);
-    EXPECT_NE(told[1].error, untold[1].error);
-    EXPECT_LT(told[1].error, 1);
+    const std::vector<StressRow> told = rowsAt("lens-told", {2}, NormalMethod::consensus),
+                                 untold = rowsAt("lens-untold", {2}, NormalMethod::consensus);
+    EXPECT_NE(told[0].error, untold[0].error);
+    EXPECT_LT(told[0].error, 1);
 }
 
 std::vector<StressRow> judged(std::vector<StressRow> rows)
