@@ -116,7 +116,7 @@ std::vector<StressRow> rowsAt(const std::string& sweep, const std::vector<size_t
     return runSweeps(subject, {part}, {method}, {}, [](const std::string&, double) {});
 }
 
-TEST(Stress, PlacesThatAreToldMakeNearLightsHarmless)
+TEST(StressSlow, PlacesThatAreToldMakeNearLightsHarmless)
 {
     constexpr auto kMethod = NormalMethod::consensus;
     const std::vector<StressRow> told = rowsAt("distance-told", {0, 3}, kMethod),
@@ -129,21 +129,21 @@ TEST(Stress, PlacesThatAreToldMakeNearLightsHarmless)
     EXPECT_GT(told[1].angles.pixels, 600u);
 }
 
-TEST(Stress, PlacesAtTwentyWidthsCount)
+TEST(StressSlow, PlacesAtTwentyWidthsCount)
 {
     const std::vector<StressRow> told = rowsAt("distance-told", {1}, NormalMethod::consensus);
     EXPECT_LT(told[0].error, 0.5);
     EXPECT_EQ(told[0].said, Said::nothing) << told[0].warnings;
 }
 
-TEST(Stress, MattObjectsThatReflectMoreAreSeenWorse)
+TEST(StressSlow, MattObjectsThatReflectMoreAreSeenWorse)
 {
     const std::vector<StressRow> rows = rowsAt("interreflection", {0, 4}, NormalMethod::consensus);
     EXPECT_LT(rows[0].error, 0.5);
     EXPECT_GT(rows[1].error, 2 * rows[0].error);
 }
 
-TEST(Stress, ALensThatIsToldIsKnownToTheChain)
+TEST(StressSlow, ALensThatIsToldIsKnownToTheChain)
 {
     const std::vector<StressRow> told = rowsAt("lens-told", {2}, NormalMethod::consensus),
                                  untold = rowsAt("lens-untold", {2}, NormalMethod::consensus);
