@@ -27,7 +27,6 @@ public:
     // samples: usable and condensed ones in half-difference coordinates, one at least.
     CompletedBrdf(const BrdfSamples& samples, const InterpolationOptions& options, const MaterialPrior& prior);
     InterpolatedValue evaluate(const glm::vec3& unit) const;
-    float trust() const { return trust_; }
 
 private:
     TableDomain domain_;
