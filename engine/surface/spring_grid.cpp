@@ -35,10 +35,23 @@ GridSprings coarsened(const GridSprings& fine)
             if (y % 2 == 1) {
                 coarse.down[to] += kBlockStiffness * fine.down[i];
             }
-            coarse.links[to] += fine.links[i];
         }
     }
-    coarse.sumDiagonal();
+    return coarse;
+}
+
+std::vector<SpringLink> coarsened(const LinkRows& fine, int width, int coarseWidth)
+{
+    const auto blockOf = [&](uint32_t pixel) {
+        const uint32_t x = pixel % static_cast<uint32_t>(width), y = pixel / static_cast<uint32_t>(width);
+        return y / 2 * static_cast<uint32_t>(coarseWidth) + x / 2;
+    };
+    std::vector<SpringLink> coarse;
+    for (const SpringLink& link : fine.rows()) {
+        if (link.first < link.second) { // once, and not from its other row
+            coarse.push_back({blockOf(link.first), blockOf(link.second), link.weight});
+        }
+    }
     return coarse;
 }
 
@@ -100,41 +113,74 @@ void GridSprings::apply(const std::vector<double>& x, std::vector<double>& resul
     });
 }
 
-SpringSolver::SpringSolver(GridSprings grid, std::vector<SpringLink> links, int threads)
-    : threads_(threads), links_(std::move(links))
+LinkRows::LinkRows(size_t pixels, std::vector<SpringLink> links)
+{
+    std::erase_if(links, [](const SpringLink& link) { return link.first == link.second; });
+    std::vector<uint32_t> starts(pixels + 1, 0);
+    for (const SpringLink& link : links) {
+        ++starts[link.first + 1];
+        ++starts[link.second + 1];
+    }
+    std::partial_sum(starts.begin(), starts.end(), starts.begin());
+    std::vector<SpringLink> rows(2 * links.size());
+    std::vector<uint32_t> ends(starts.begin(), starts.end() - 1);
+    for (const SpringLink& link : links) {
+        rows[ends[link.first]++] = link;
+        rows[ends[link.second]++] = {link.second, link.first, link.weight};
+    }
+    for (size_t pixel = 0; pixel < pixels; ++pixel) {
+        const auto first = rows.begin() + starts[pixel], end = rows.begin() + starts[pixel + 1];
+        std::stable_sort(first, end, [](const SpringLink& a, const SpringLink& b) { return a.second < b.second; });
+        for (auto link = first; link != end; ++link) {
+            const bool isSame = link != first && links_.back().second == link->second;
+            isSame ? void(links_.back().weight += link->weight) : links_.push_back(*link);
+        }
+    }
+}
+
+void LinkRows::addPull(double factor, const std::vector<double>& x, std::vector<double>& result) const
 {
     for (const SpringLink& link : links_) {
+        result[link.first] += factor * link.weight * x[link.second];
+    }
+}
+
+SpringSolver::SpringSolver(GridSprings grid, std::vector<SpringLink> links, int threads) : threads_(threads)
+{
+    addLevel(std::move(grid), std::move(links));
+    while (levels_.back().grid.width > kSmallestSide || levels_.back().grid.height > kSmallestSide) {
+        const Level& fine = levels_.back();
+        GridSprings coarse = coarsened(fine.grid);
+        std::vector<SpringLink> coarseLinks = coarsened(fine.links, fine.grid.width, coarse.width);
+        addLevel(std::move(coarse), std::move(coarseLinks));
+    }
+}
+
+void SpringSolver::addLevel(GridSprings grid, std::vector<SpringLink> links)
+{
+    const size_t size = grid.size();
+    LinkRows rows(size, std::move(links));
+    std::fill(grid.links.begin(), grid.links.end(), 0.0);
+    for (const SpringLink& link : rows.rows()) {
         grid.links[link.first] += link.weight;
-        grid.links[link.second] += link.weight;
     }
     grid.sumDiagonal();
-    levels_.push_back(std::move(grid));
-    while (levels_.back().width > kSmallestSide || levels_.back().height > kSmallestSide) {
-        levels_.push_back(coarsened(levels_.back()));
-    }
-    for (const GridSprings& level : levels_) {
-        residual_.emplace_back(level.size());
-        error_.emplace_back(level.size());
-        scratch_.emplace_back(level.size());
-    }
+    levels_.push_back({std::move(grid), std::move(rows), std::vector<double>(size), std::vector<double>(size),
+                       std::vector<double>(size)});
 }
 
 // What links hold a pixel by is in its diagonal.
-void SpringSolver::applyAll(const std::vector<double>& x, std::vector<double>& result) const
+void SpringSolver::apply(const Level& level, const std::vector<double>& x, std::vector<double>& result) const
 {
-    levels_.front().apply(x, result, threads_);
-    for (const SpringLink& link : links_) {
-        result[link.first] -= link.weight * x[link.second];
-        result[link.second] -= link.weight * x[link.first];
-    }
+    level.grid.apply(x, result, threads_);
+    level.links.addPull(-1, x, result);
 }
 
 // Gauss-Seidel over one colour of a chessboard, then over the other: neighbours never wait for each other.
-void SpringSolver::smooth(size_t level, int firstColour)
+void SpringSolver::sweep(Level& level, int firstColour, const std::vector<double>& b)
 {
-    const GridSprings& grid = levels_[level];
-    const std::vector<double>& b = residual_[level];
-    std::vector<double>& x = error_[level];
+    const GridSprings& grid = level.grid;
+    std::vector<double>& x = level.error;
     for (const int colour : {firstColour, 1 - firstColour}) {
         parallelFor(grid.height, kRowsPerChunk, threadsFor(grid, threads_), [&](size_t first, size_t last) {
             for (int row = static_cast<int>(first); row < static_cast<int>(last); ++row) {
@@ -149,47 +195,64 @@ void SpringSolver::smooth(size_t level, int firstColour)
     }
 }
 
-// Symmetric: the sweeps after the coarser grid are those before it, backwards.
-void SpringSolver::cycle(size_t level)
+// Links pull with what was there before the sweep.
+void SpringSolver::smooth(Level& level, int firstColour)
 {
-    std::fill(error_[level].begin(), error_[level].end(), 0.0);
-    if (level + 1 == levels_.size()) {
-        for (int sweep = 0; sweep < kCoarsestSweeps; ++sweep) {
-            smooth(level, 0);
-        }
-        for (int sweep = 0; sweep < kCoarsestSweeps; ++sweep) {
-            smooth(level, 1);
-        }
+    if (level.links.empty()) {
+        sweep(level, firstColour, level.residual);
         return;
     }
-    const GridSprings &fine = levels_[level], &coarse = levels_[level + 1];
-    smooth(level, 0);
-    fine.apply(error_[level], scratch_[level], threads_);
-    std::fill(residual_[level + 1].begin(), residual_[level + 1].end(), 0.0);
-    const auto blockOf = [&](int x, int y) { return static_cast<size_t>(y / 2) * coarse.width + x / 2; };
-    for (int y = 0; y < fine.height; ++y) {
-        for (int x = 0; x < fine.width; ++x) {
-            const size_t i = static_cast<size_t>(y) * fine.width + x;
-            residual_[level + 1][blockOf(x, y)] += residual_[level][i] - scratch_[level][i];
+    level.scratch = level.residual;
+    level.links.addPull(1, level.error, level.scratch);
+    sweep(level, firstColour, level.scratch);
+}
+
+void SpringSolver::coarsest(Level& level)
+{
+    for (const int firstColour : {0, 1}) {
+        for (int i = 0; i < kCoarsestSweeps; ++i) {
+            smooth(level, firstColour);
         }
     }
-    cycle(level + 1);
-    for (int y = 0; y < fine.height; ++y) {
-        for (int x = 0; x < fine.width; ++x) {
-            error_[level][static_cast<size_t>(y) * fine.width + x] += error_[level + 1][blockOf(x, y)];
+}
+
+// Symmetric: the sweep after the coarser grid is that before it, backwards.
+void SpringSolver::cycle(size_t index)
+{
+    Level& fine = levels_[index];
+    std::fill(fine.error.begin(), fine.error.end(), 0.0);
+    if (index + 1 == levels_.size()) {
+        coarsest(fine);
+        return;
+    }
+    Level& coarse = levels_[index + 1];
+    sweep(fine, 0, fine.residual); // from 0, where links do not pull
+    apply(fine, fine.error, fine.scratch);
+    std::fill(coarse.residual.begin(), coarse.residual.end(), 0.0);
+    const auto blockOf = [&](int x, int y) { return static_cast<size_t>(y / 2) * coarse.grid.width + x / 2; };
+    for (int y = 0; y < fine.grid.height; ++y) {
+        for (int x = 0; x < fine.grid.width; ++x) {
+            const size_t i = static_cast<size_t>(y) * fine.grid.width + x;
+            coarse.residual[blockOf(x, y)] += fine.residual[i] - fine.scratch[i];
         }
     }
-    smooth(level, 1);
+    cycle(index + 1);
+    for (int y = 0; y < fine.grid.height; ++y) {
+        for (int x = 0; x < fine.grid.width; ++x) {
+            fine.error[static_cast<size_t>(y) * fine.grid.width + x] += coarse.error[blockOf(x, y)];
+        }
+    }
+    smooth(fine, 1);
 }
 
 // Shewchuk, "An Introduction to the Conjugate Gradient Method Without the Agonizing Pain", 1994, B3.
 SpringSolver::Result SpringSolver::solve(const std::vector<double>& b, std::vector<double>& x, double tolerance,
                                          int mostIterations)
 {
-    const GridSprings& grid = levels_.front();
-    std::vector<double> direction(grid.size(), 0.0), product(grid.size());
-    std::vector<double> r(grid.size());
-    applyAll(x, r);
+    Level& fine = levels_.front();
+    std::vector<double> direction(fine.grid.size(), 0.0), product(fine.grid.size());
+    std::vector<double> r(fine.grid.size());
+    apply(fine, x, r);
     combine(1, b, -1, r);
     const double scale = std::sqrt(dot(b, b, threads_));
     Result result;
@@ -199,12 +262,12 @@ SpringSolver::Result SpringSolver::solve(const std::vector<double>& b, std::vect
         if (result.residual <= tolerance || result.iterations == mostIterations) {
             return result;
         }
-        residual_.front() = r;
+        fine.residual = r;
         cycle(0);
-        const double now = dot(r, error_.front(), threads_);
-        combine(1, error_.front(), before > 0 ? now / before : 0, direction);
+        const double now = dot(r, fine.error, threads_);
+        combine(1, fine.error, before > 0 ? now / before : 0, direction);
         before = now;
-        applyAll(direction, product);
+        apply(fine, direction, product);
         const double length = dot(direction, product, threads_);
         if (!(length > 0)) {
             return result;

@@ -30,9 +30,22 @@ struct SpringLink {
     double weight = 0;
 };
 
+// Links by pixel: each is in the rows of both of its pixels, and all between the same two are one.
+class LinkRows {
+public:
+    LinkRows(size_t pixels, std::vector<SpringLink> links);
+
+    bool empty() const { return links_.empty(); }
+    const std::vector<SpringLink>& rows() const { return links_; } // by their first pixel
+    // Adds `factor` times the sum over a pixel's links of w_ij x_j.
+    void addPull(double factor, const std::vector<double>& x, std::vector<double>& result) const;
+
+private:
+    std::vector<SpringLink> links_;
+};
+
 // Solves L x = b by conjugate gradients, preconditioned by one V-cycle over grids of half the size each, in which 2x2
-// pixels move as one, and links hold their pixels where they are. x is the start and the result, up to a constant for
-// each connected piece.
+// pixels move as one, with their links. x is the start and the result, up to a constant for each connected piece.
 class SpringSolver {
 public:
     // The grid's links and diagonal are filled in.
@@ -45,14 +58,21 @@ public:
     Result solve(const std::vector<double>& b, std::vector<double>& x, double tolerance, int mostIterations);
 
 private:
-    void applyAll(const std::vector<double>& x, std::vector<double>& result) const;
-    void cycle(size_t level); // error_[level] from residual_[level]
-    void smooth(size_t level, int firstColour);
+    struct Level {
+        GridSprings grid;
+        LinkRows links;
+        std::vector<double> residual, error, scratch;
+    };
+
+    void addLevel(GridSprings grid, std::vector<SpringLink> links);
+    void apply(const Level& level, const std::vector<double>& x, std::vector<double>& result) const;
+    void cycle(size_t index); // the level's error from its residual
+    void coarsest(Level& level);
+    void smooth(Level& level, int firstColour);
+    void sweep(Level& level, int firstColour, const std::vector<double>& b);
 
     int threads_;
-    std::vector<SpringLink> links_;
-    std::vector<GridSprings> levels_;
-    std::vector<std::vector<double>> residual_, error_, scratch_; // one a level
+    std::vector<Level> levels_;
 };
 
 } // namespace nacre
