@@ -22,6 +22,7 @@ namespace {
 constexpr double kMostStates = 1 << 23; // of the grid: pixels times lights; a second of work for each of three heights
 constexpr double kLeastCast = 1e-3;     // share of observations: fewer are errors of the normals
 constexpr size_t kParts = 3;            // of the lights, each of which one height has not seen
+constexpr size_t kFirstParts = 2;       // of them; where these say nothing for shadows, the rest is not asked
 constexpr size_t kStatesAtOnce = 256;
 constexpr int kBallSize = 64; // states need no more
 
@@ -187,20 +188,26 @@ CastShadows findCastShadows(const Measurement& measurement, ObservationBlocks& b
         report.whyNot = "next to nothing lies in a shadow that something else casts";
         return shadows;
     }
+    const std::vector<size_t> all = lightsWithout(shadows.leftOut.unseen, kParts);
     LeftOut hidden = shadows.leftOut;
-    Image whole; // has seen all lights
-    parallelFor(kParts + 1, 1, threads, [&](size_t part, size_t) {
-        Image height = heightBy(surface.normals, thinned, lightsWithout(hidden.unseen, part));
-        if (part == kParts) {
-            whole = std::move(height);
-            return;
-        }
+    const auto hideUnseen = [&](size_t part) {
+        const Image height = heightBy(surface.normals, thinned, lightsWithout(hidden.unseen, part));
         const HorizonMap horizon = horizonMap(surface.normals, height, kHorizonAzimuths, 1);
         for (size_t fold = part; fold < hidden.unseen.folds.size(); fold += kParts) {
             hideLights(horizon, hidden.rows.pixels, thinned.grid.lights, hidden.unseen.predicted[fold]);
         }
-    });
+    };
     report.psnr = predictedPsnr(surface, shadows.leftOut, layer);
+    parallelFor(kFirstParts, 1, threads, [&](size_t part, size_t) { hideUnseen(part); });
+    report.shadowedPsnr = predictedPsnr(surface, hidden, layer);
+    if (report.shadowedPsnr <= report.psnr) {
+        return shadows;
+    }
+    Image whole;
+    parallelFor(kParts + 1 - kFirstParts, 1, threads, [&](size_t i, size_t) {
+        const size_t part = kFirstParts + i;
+        part == kParts ? void(whole = heightBy(surface.normals, thinned, all)) : hideUnseen(part);
+    });
     report.shadowedPsnr = predictedPsnr(surface, hidden, layer);
     report.areKept = report.shadowedPsnr > report.psnr + kShadowMargin;
     if (report.areKept) {
