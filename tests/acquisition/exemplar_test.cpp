@@ -168,7 +168,7 @@ void expectNothingLost(const Scene& scene, const std::function<bool(int x)>& cou
 
 // Neighbours propose and do not pull: at a crease of 90 degrees, and on bumps of a pixel's height and a period of 4 to
 // 8 pixels, nothing is lost against every pixel by itself.
-TEST(Exemplar, SmoothsNeitherEdgesNorTexture)
+TEST(ExemplarSlow, SmoothsNeitherEdgesNorTexture)
 {
     const auto shading = [](size_t, const glm::vec3& n, const glm::vec3& l) { return 0.5f + gloss(n, l, 0.3f); };
     constexpr int kSide = 48;

@@ -183,7 +183,7 @@ SynthOptions nearCapture()
     return options;
 }
 
-TEST(NearField, TheChainFindsNormalsUnderNearLights)
+TEST(NearFieldSlow, TheChainFindsNormalsUnderNearLights)
 {
     const TempFolder folder;
     SynthOptions options = nearCapture();
@@ -205,7 +205,7 @@ TEST(NearField, TheChainFindsNormalsUnderNearLights)
     EXPECT_FALSE(contains(findings, FindingCode::lightsNear));
 }
 
-TEST(NearField, TheChainRelightsUnderNearLights)
+TEST(NearFieldSlow, TheChainRelightsUnderNearLights)
 {
     const TempFolder folder;
     writeSynthCapture(folder / "c", makeSynthScene(nearCapture()), false);

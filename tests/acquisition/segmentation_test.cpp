@@ -153,7 +153,7 @@ TEST(SegmentationSlow, ThreeMaterialsRenderThePhotographBetterThanOne)
     EXPECT_GT(several, single + 3); // a factor of two in the mean squared error
 }
 
-TEST(Segmentation, LabelsOfAPictureAreUsedAndAlbedoHasAMeanOfOneInEach)
+TEST(SegmentationSlow, LabelsOfAPictureAreUsedAndAlbedoHasAMeanOfOneInEach)
 {
     const TempFolder folder;
     const Synthesised made = synthesise(folder, threeMaterials());
@@ -183,7 +183,7 @@ TEST(Segmentation, LabelsOfAPictureAreUsedAndAlbedoHasAMeanOfOneInEach)
     }
 }
 
-TEST(Segmentation, OneAskedForIsNoneAndTheCapturesLabelsAreTheDefault)
+TEST(SegmentationSlow, OneAskedForIsNoneAndTheCapturesLabelsAreTheDefault)
 {
     EXPECT_EQ(segmentOptionsFrom("auto:1").source, SegmentSource::none);
     EXPECT_EQ(segmentOptionsFrom("").source, SegmentSource::asCaptured);

@@ -88,7 +88,7 @@ TEST(SyntheticChain, SpheresCalibrateLightsWithin0Point3DegreesAndIntensitiesWit
     }
 }
 
-TEST(SyntheticChain, ADiffuseSphereOfKnownReflectanceMakesTheScaleAbsolute)
+TEST(SyntheticChainSlow, ADiffuseSphereOfKnownReflectanceMakesTheScaleAbsolute)
 {
     const TempFolder folder;
     SynthOptions synth = exactSphere();
