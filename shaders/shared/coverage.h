@@ -27,8 +27,8 @@ NACRE_FN float errorWithinTable(float error, float thetaD, int coordinates, floa
     return isWithin ? error : max(error, kUnknownError);
 }
 
-// Of one light: by how much its radiance may be off beyond what is allowed, in the mean of the channels. Errors of lights
-// are taken to go the same way, so that a pixel is uncertain where the sum over its lights is positive.
+// Of one light: by how much its radiance may be off beyond what is allowed, in the mean of the channels. Errors of
+// lights are taken to go the same way, so that a pixel is uncertain where the sum over its lights is positive.
 NACRE_FN float errorBeyondBound(float error, vec3 radiance)
 {
     return (error - kUncertainError) * (radiance.x + radiance.y + radiance.z) / 3.0f;
