@@ -1,11 +1,12 @@
 #version 460
 // Direct lighting of one material by one group of lights: a lookup of its table per pixel and light, added to what the
-// groups before it left; alpha counts the lights for which the table has nothing measured, where that is asked for.
+// groups before it left; alpha likewise adds up by how much the radiance may be off (coverage.h), where that is asked for.
 // engine/scene/reference.cpp is the twin of this file on the CPU.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_EXT_control_flow_attributes : require
 #include "shared/ball.h"
+#include "shared/coverage.h"
 #include "shared/layout.h"
 #include "shared/near_light.h"
 #include "shared/shading.h"
@@ -34,7 +35,7 @@ layout(scalar, push_constant) uniform Constants
 
 layout(location = 0) out vec4 radiance;
 
-// RGB in 1/sr and coverage; m is the normal in the light's frame.
+// RGB in 1/sr and its expected error; m is the normal in the light's frame.
 vec4 brdf(LightFrame light, vec3 n, vec3 m)
 {
     vec3 unit;
@@ -82,18 +83,19 @@ void main()
     }
     vec3 place = kNear ? texelFetch(places, pixel, 0).xyz : vec3(0.0);
     vec3 sum = vec3(0.0);
-    float unmeasured = 0.0;
+    float beyond = 0.0;
     [[unroll]] for (int i = 0; i < kLightCount; ++i) {
         LightFrame light = metLight(i, place);
         vec3 m = normalInFrame(light, n);
         vec4 f = brdf(light, n, m);
         float nDotL = cosineInFrame(light, m);
         float arriving = kShadows ? shareOfLight(lookupOf(i, light), pixel) : 1.0;
-        sum += arriving * radianceFromBrdf(f.rgb, light.irradiance.rgb, nDotL);
-        if (kCoverage && nDotL > 0.0 && arriving > 0.0) {
-            bool measured = isMeasured(f.w, light.across.w, kCoordinates, constants.tableSize.w);
-            unmeasured += measured ? 0.0 : 1.0;
+        vec3 added = arriving * radianceFromBrdf(f.rgb, light.irradiance.rgb, nDotL);
+        sum += added;
+        if (kCoverage) {
+            beyond +=
+                errorBeyondBound(errorWithinTable(f.w, light.across.w, kCoordinates, constants.tableSize.w), added);
         }
     }
-    radiance = vec4(albedo.rgb * sum, unmeasured);
+    radiance = vec4(albedo.rgb * sum, beyond);
 }

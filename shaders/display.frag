@@ -21,6 +21,6 @@ void main()
     ivec2 pixel = ivec2(gl_FragCoord.xy);
     vec4 light = texelFetch(radiance, pixel - ivec2(0, constants.firstRow), 0);
     vec3 shown = displayCode(constants.gain * light.rgb, kToneCurve);
-    bool hatch = kHatched && light.w > kUnmeasuredAlpha;
+    bool hatch = kHatched && light.w > 0.0;
     code = vec4(hatch ? hatched(shown, pixel) : shown, 1.0);
 }

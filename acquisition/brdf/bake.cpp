@@ -87,7 +87,7 @@ BakedBrdf bakeBrdf(const BrdfSamples& samples, const BrdfInterpolant& interpolan
     BrdfTable& table = baked.table;
     baked.coverage.distance.resize(table.values.size());
     baked.coverage.count.assign(table.values.size(), 0.0f);
-    baked.coverage.error.resize(table.values.size());
+    table.error.resize(table.values.size());
     const glm::vec3 last = glm::max(glm::vec3(size) - 1.0f, glm::vec3(1.0f));
     parallelFor(static_cast<size_t>(size.y) * size.z, 8, options.threads, [&](size_t first, size_t end) {
         for (size_t row = first; row < end; ++row) {
@@ -100,12 +100,12 @@ BakedBrdf bakeBrdf(const BrdfSamples& samples, const BrdfInterpolant& interpolan
                 table.confidence[texel] =
                     std::min(1.0f, texelDiagonal(samples.domain, unit, size) / std::max(value.nearest, 1e-9f));
                 baked.coverage.distance[texel] = value.nearest;
-                baked.coverage.error[texel] = value.error;
+                table.error[texel] = value.error;
             }
         }
     });
-    if (baked.coverage.error.front() <= 0) {
-        baked.coverage.error.clear();
+    if (table.error.front() <= 0) {
+        table.error.clear();
     }
     countSamples(samples, table, baked.coverage.count);
     return baked;

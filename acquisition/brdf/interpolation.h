@@ -27,7 +27,7 @@ inline constexpr int kMostNeighbours = 512;
 struct InterpolatedValue {
     glm::vec3 value{0};
     float nearest = 0; // radians to the nearest sample
-    float error = 0;   // expected, relative (Coverage); 0 where nobody tells
+    float error = 0;   // expected, relative (BrdfTable); 0 where nobody tells
 };
 
 // f at unit coordinates of the samples' domain; beyond the samples it is extrapolated, and `nearest` says how far.

@@ -22,6 +22,7 @@
 #include "engine/materials/material_specification.h"
 #include "engine/materials/merl_file.h"
 #include "engine/scene/ball.h"
+#include "engine/scene/coverage.h"
 
 namespace nacre {
 namespace {
@@ -60,15 +61,17 @@ glm::vec3 logarithmic(const glm::vec3& f, float peak)
 Image slicePicture(const BrdfModel& model, float phiD, float peak, int threads)
 {
     Image picture(kSliceSize, kSliceSize, 3);
+    const BrdfTable* table = tableOf(model);
     parallelFor(kSliceSize, 8, threads, [&](size_t first, size_t last) {
         for (int y = static_cast<int>(first); y < static_cast<int>(last); ++y) {
             for (int x = 0; x < kSliceSize; ++x) {
                 const HalfDifference c = coordinatesOf(x, y, phiD);
                 const BrdfValue f = foldedValue(model, c);
+                const LightView d = directionsFromHalfDifference(c);
                 const bool hatched = (x + y) % 8 < 2;
                 if (isBelowHorizon(c)) {
                     picture.setRgb(x, y, glm::vec3(kHorizonGrey));
-                } else if (f.confidence < kCoveredConfidence && hatched) {
+                } else if (table && hatched && expectedError(*table, kAxis, d.l, d.v) > kUncertainError) {
                     picture.setRgb(x, y, {0.6f, 0.1f, 0.5f});
                 } else {
                     picture.setRgb(x, y, logarithmic(f.value, peak));
@@ -135,9 +138,9 @@ Image ballsSheet(const BrdfModel& model, int threads)
 }
 
 // slices.png: f over thetaH (right, 0 to 90 degrees, square root) and thetaD (down) for several phiD, on a logarithmic
-// scale from 1e-4 of the peak; grey where light or view is below the horizon, hatched where it is not covered.
-// sphere.png: a ball of the material under lights at several angles from the view, all exposed alike, and the same
-// three stops brighter. `folder` is made; pictures of these names in it are refused without `replace`.
+// scale from 1e-4 of the peak; grey where light or view is below the horizon, hatched where f is uncertain
+// (coverage.h). sphere.png: a ball of the material under lights at several angles from the view, all exposed alike, and
+// the same three stops brighter. `folder` is made; pictures of these names in it are refused without `replace`.
 void saveBrdfPictures(const std::filesystem::path& folder, const BrdfSource& source, bool replace, int threads)
 {
     std::filesystem::create_directories(folder);

@@ -49,7 +49,7 @@ std::string describeDrawing(Renderer& renderer, const RenderOutput& output)
 
 void report(const Scene& scene, Renderer& renderer, const RenderOutput& output, const RenderedOutput& rendered)
 {
-    noteUnmeasured(scene);
+    noteUncertain(scene);
     const NormalMap& normals = scene.surface.normals;
     fmt::print("rendered     {}x{} pixels under {} light{}", normals.width, normals.height, scene.lights.size(),
                scene.lights.size() == 1 ? "" : "s");
@@ -103,7 +103,8 @@ void addRenderCommand(CLI::App& app)
                   "captured:1)",
          .environment = "Latitude-longitude picture of the light from all around, .exr or .hdr",
          .exposure = "Exposure in stops, not for .exr (default: 99th percentile of radiance at 0.9)",
-         .show = "Content: picture, normals, labels, coverage (stripes where not measured), theta-h or theta-d of "
+         .show = "Content: picture, normals, labels, coverage (stripes where uncertain by over 20 %), theta-h or "
+                 "theta-d of "
                  "the brightest light [picture]",
          .layer = "Residual layer of the captured surface: on, off, or alone about middle grey [on]",
          .state = "JSON file whose keys are these options; the command line takes precedence"});

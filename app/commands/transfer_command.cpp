@@ -25,8 +25,8 @@ namespace {
 // One picture or sequence that was drawn.
 struct TransferPicture {
     std::string rig, row, target;
-    double unmeasured = 0; // share of the lit pixels that ask for directions nobody measured
-    double seconds = 0;    // until the first picture was there, a new material's ball sizes included; coverage apart
+    double uncertain = 0; // see uncertainShare
+    double seconds = 0;   // until the first picture was there, a new material's ball sizes included; coverage apart
 };
 
 constexpr int kLargestCell = 512; // pixels of a sheet's cell
@@ -120,7 +120,7 @@ private:
             TransferPicture picture{sources_.rigs[rig].name, sources_.rows[row].name, target};
             const Image first = save(scene, picture);
             picture.seconds = watch.seconds();
-            picture.unmeasured = unmeasuredShare(scene).pixels;
+            picture.uncertain = uncertainShare(scene);
             const std::string caption =
                 fmt::format("{}: {} {}{}", picture.rig, picture.row, target == kBall ? "" : "on ", target);
             sheets_[rig][row].push_back({shrunk(first, cell_.box), captionOf(caption, cell_.width)});
@@ -202,12 +202,7 @@ void print(const std::vector<TransferPicture>& pictures)
     }
     for (const TransferPicture& p : pictures) {
         const std::string name = fmt::format("{}: {}, {}", p.rig, p.row, p.target);
-        const std::string share = p.unmeasured <= 0
-                                      ? ""
-                                      : fmt::format("{:5.1f} % of the lit pixels lie outside the measured "
-                                                    "directions",
-                                                    100 * p.unmeasured);
-        fmt::print("{:<{}}  {:6.2f} s  {}\n", name, widest + 4, p.seconds, share);
+        fmt::print("{:<{}}  {:6.2f} s  {}\n", name, widest + 4, p.seconds, describeUncertainShare(p.uncertain));
     }
 }
 
@@ -278,7 +273,7 @@ void addTransferCommand(CLI::App& app)
     command->add_option("--frames", arguments->frames, "Number of frames with moving lights, as .png and one .webp");
     command->add_option("--motion", arguments->motion,
                         "Motion of the lights: turntable (about the view) or sweep (left to right) [turntable]");
-    command->add_flag("--hatch", arguments->hatch, "Stripes where the material was not measured");
+    command->add_flag("--hatch", arguments->hatch, "Stripes where a picture is uncertain by over 20 %");
     command->add_flag("--shadows", arguments->shadows, "Cast shadows, from the height of the shapes");
     command->add_option("-o,--output", arguments->output, "Folder for sheet_RIG.png and every single picture")
         ->required();

@@ -279,8 +279,9 @@ std::string describe(const BrdfTable& table)
     const std::string domain = table.domain.coordinates == kNatural
                                    ? "natural coordinates"
                                    : fmt::format("thetaD to {:.1f} degrees", glm::degrees(table.domain.thetaDMax));
-    return fmt::format("{}x{}x{} ({}), {}, {:.0f} % of it measured", table.size.x, table.size.y, table.size.z,
-                       describeBytes(16 * table.values.size()), domain, 100 * coveredShare(table));
+    return fmt::format("{}x{}x{} ({}), {}, {:.0f} % of it measured, {:.0f} % known to {:.0f} %", table.size.x,
+                       table.size.y, table.size.z, describeBytes(16 * table.values.size()), domain,
+                       100 * coveredShare(table), 100 * certainShare(table), 100 * kUncertainError);
 }
 
 std::string describe(const Light& light)
@@ -348,6 +349,7 @@ Json summaryOf(const Capture& capture, const Acquisition& acquisition)
     json["tableCoordinates"] = table.domain.coordinates == kNatural ? "natural" : "half-difference";
     json["tableThetaDMaxDegrees"] = glm::degrees(table.domain.thetaDMax);
     json["tableCoveredShare"] = coveredShare(table);
+    json["tableCertainShare"] = certainShare(table);
     for (size_t i = 0; i < acquisition.segmentation.regions.size(); ++i) {
         const MaterialRegion& region = acquisition.segmentation.regions[i];
         const BrdfTable& own = acquisition.surface.materials[i].table;
@@ -355,7 +357,8 @@ Json summaryOf(const Capture& capture, const Acquisition& acquisition)
                                      {"pixels", region.pixels},
                                      {"innerPixels", region.inner},
                                      {"tableSize", {own.size.x, own.size.y, own.size.z}},
-                                     {"tableCoveredShare", coveredShare(own)}});
+                                     {"tableCoveredShare", coveredShare(own)},
+                                     {"tableCertainShare", certainShare(own)}});
     }
     json["shadows"] = documentOf(acquisition.shadows);
     json["residual"] = documentOf(acquisition.residual);

@@ -24,6 +24,24 @@ bool isNatural(const BrdfTable& table)
     return table.domain.coordinates == kNatural;
 }
 
+// Of those whose light and view are above the horizon.
+template <class Counts> double shareOfTexels(const BrdfTable& table, const Counts& counts)
+{
+    size_t above = 0, counted = 0;
+    for (int k = 0; k < table.size.z; ++k) {
+        for (int j = 0; j < table.size.y; ++j) {
+            for (int i = 0; i < table.size.x; ++i) {
+                const LightView d = table.directions(i, j, k);
+                if (d.l.z > 0 && d.v.z > 0) {
+                    ++above;
+                    counted += counts(table.index(i, j, k));
+                }
+            }
+        }
+    }
+    return above == 0 ? 0 : static_cast<double>(counted) / static_cast<double>(above);
+}
+
 void printTable(const BrdfTable& table)
 {
     constexpr double kMebibyte = 1024.0 * 1024.0;
@@ -35,6 +53,8 @@ void printTable(const BrdfTable& table)
                    : fmt::format("half-difference, thetaD to {:.1f} degrees", glm::degrees(table.domain.thetaDMax)));
     fmt::print("covered      {:.1f} % of the texels whose light and view are above the horizon\n",
                100 * coveredShare(table));
+    fmt::print("certain      {:.1f} % of them: expected to be off by at most {:.0f} %\n", 100 * certainShare(table),
+               100 * kUncertainError);
 }
 
 void printAudit(const BrdfAudit& audit, bool relative)
@@ -63,19 +83,12 @@ void printAudit(const BrdfAudit& audit, bool relative)
 
 double coveredShare(const BrdfTable& table)
 {
-    size_t above = 0, covered = 0;
-    for (int k = 0; k < table.size.z; ++k) {
-        for (int j = 0; j < table.size.y; ++j) {
-            for (int i = 0; i < table.size.x; ++i) {
-                const LightView d = table.directions(i, j, k);
-                if (d.l.z > 0 && d.v.z > 0) {
-                    ++above;
-                    covered += table.confidence[table.index(i, j, k)] >= kCoveredConfidence;
-                }
-            }
-        }
-    }
-    return above == 0 ? 0 : static_cast<double>(covered) / static_cast<double>(above);
+    return shareOfTexels(table, [&](size_t texel) { return table.confidence[texel] >= kCoveredConfidence; });
+}
+
+double certainShare(const BrdfTable& table)
+{
+    return shareOfTexels(table, [&](size_t texel) { return expectedError(table, texel) <= kUncertainError; });
 }
 
 void print(const BrdfReport& report)
@@ -131,7 +144,8 @@ nlohmann::json jsonOf(const BrdfReport& report)
         json["table"] = {{"size", {table->size.x, table->size.y, table->size.z}},
                          {"coordinates", isNatural(*table) ? "natural" : "half-difference"},
                          {"thetaDMaxDegrees", glm::degrees(table->domain.thetaDMax)},
-                         {"covered", coveredShare(*table)}};
+                         {"covered", coveredShare(*table)},
+                         {"certain", certainShare(*table)}};
     }
     if (report.comparison) {
         json["against"] = jsonOf(*report.comparison);

@@ -21,8 +21,10 @@ struct BrdfReport {
     std::optional<BrdfComparison> comparison;
 };
 
-// Of a table's texels whose light and view are above the horizon, the share that is covered.
+// Of a table's texels whose light and view are above the horizon, the share that is covered, and the share whose
+// expected error is at most kUncertainError.
 double coveredShare(const BrdfTable& table);
+double certainShare(const BrdfTable& table);
 
 void print(const BrdfReport& report);
 nlohmann::json jsonOf(const BrdfReport& report);

@@ -7,6 +7,7 @@
 
 #include "engine/files/error.h"
 #include "engine/files/image.h"
+#include "shared/coverage.h"
 
 namespace nacre {
 
@@ -44,6 +45,20 @@ template <class Visit> void forEachTexel(const glm::ivec3& size, Visit&& visit)
     }
 }
 
+// Calls visit(texel, weight) with the eight texels around unit coordinates.
+template <class Visit> void forEachCorner(const BrdfTable& table, const glm::vec3& unit, Visit&& visit)
+{
+    const glm::vec3 position = unit * (glm::vec3(table.size) - 1.0f);
+    const glm::ivec3 low = glm::clamp(glm::ivec3(glm::floor(position)), glm::ivec3(0), table.size - 1);
+    const glm::ivec3 high = glm::min(low + 1, table.size - 1);
+    const glm::vec3 t = position - glm::vec3(low);
+    for (int corner = 0; corner < 8; ++corner) {
+        const bool i = corner & 1, j = corner & 2, k = corner & 4;
+        const float weight = (i ? t.x : 1 - t.x) * (j ? t.y : 1 - t.y) * (k ? t.z : 1 - t.z);
+        visit(table.index(i ? high.x : low.x, j ? high.y : low.y, k ? high.z : low.z), weight);
+    }
+}
+
 // Of `channels` channels, or up to so many more.
 Image loadAtlas(const std::filesystem::path& file, const glm::ivec3& size, int channels, int more = 0)
 {
@@ -72,18 +87,23 @@ LightView BrdfTable::directions(int i, int j, int k) const
 
 BrdfValue sampleTable(const BrdfTable& table, const glm::vec3& unit)
 {
-    const glm::vec3 position = unit * (glm::vec3(table.size) - 1.0f);
-    const glm::ivec3 low = glm::clamp(glm::ivec3(glm::floor(position)), glm::ivec3(0), table.size - 1);
-    const glm::ivec3 high = glm::min(low + 1, table.size - 1);
-    const glm::vec3 t = position - glm::vec3(low);
     BrdfValue sum{glm::vec3(0), 0};
-    for (int corner = 0; corner < 8; ++corner) {
-        const bool i = corner & 1, j = corner & 2, k = corner & 4;
-        const float weight = (i ? t.x : 1 - t.x) * (j ? t.y : 1 - t.y) * (k ? t.z : 1 - t.z);
-        const size_t texel = table.index(i ? high.x : low.x, j ? high.y : low.y, k ? high.z : low.z);
+    forEachCorner(table, unit, [&](size_t texel, float weight) {
         sum.value += weight * table.values[texel];
         sum.confidence += weight * table.confidence[texel];
-    }
+    });
+    return sum;
+}
+
+float expectedError(const BrdfTable& table, size_t texel)
+{
+    return table.error.empty() ? errorFromCoverage(table.confidence[texel]) : table.error[texel];
+}
+
+float sampleError(const BrdfTable& table, const glm::vec3& unit)
+{
+    float sum = 0;
+    forEachCorner(table, unit, [&](size_t texel, float weight) { sum += weight * expectedError(table, texel); });
     return sum;
 }
 
@@ -94,10 +114,13 @@ BrdfValue evaluateTable(const BrdfTable& table, const glm::vec3& n, const glm::v
 
 void saveBrdfTable(const std::filesystem::path& file, const BrdfTable& table)
 {
-    Image atlas(table.size.x * table.size.z, table.size.y, 4);
+    Image atlas(table.size.x * table.size.z, table.size.y, table.error.empty() ? 4 : 5);
     forEachTexel(table.size, [&](size_t texel, int x, int y) {
         atlas.setRgb(x, y, table.values[texel]);
         atlas.at(x, y, 3) = table.confidence[texel];
+        if (!table.error.empty()) {
+            atlas.at(x, y, 4) = table.error[texel];
+        }
     });
     saveImage(file, atlas, PixelType::float32, {{kShapeAttribute, describeShape(table)}});
 }
@@ -105,24 +128,24 @@ void saveBrdfTable(const std::filesystem::path& file, const BrdfTable& table)
 BrdfTable loadBrdfTable(const std::filesystem::path& file)
 {
     BrdfTable table = tableOfShape(file, readImageAttribute(file, kShapeAttribute));
-    const Image atlas = loadAtlas(file, table.size, 4);
+    const Image atlas = loadAtlas(file, table.size, 4, 1);
+    table.error.resize(atlas.channels > 4 ? table.values.size() : 0);
     forEachTexel(table.size, [&](size_t texel, int x, int y) {
         table.values[texel] = atlas.rgb(x, y);
         table.confidence[texel] = atlas.at(x, y, 3);
+        if (!table.error.empty()) {
+            table.error[texel] = atlas.at(x, y, 4);
+        }
     });
     return table;
 }
 
 void saveCoverage(const std::filesystem::path& file, const glm::ivec3& size, const Coverage& coverage)
 {
-    const bool knowsError = !coverage.error.empty();
-    Image atlas(size.x * size.z, size.y, knowsError ? 3 : 2);
+    Image atlas(size.x * size.z, size.y, 2);
     forEachTexel(size, [&](size_t texel, int x, int y) {
         atlas.at(x, y, 0) = coverage.distance[texel];
         atlas.at(x, y, 1) = coverage.count[texel];
-        if (knowsError) {
-            atlas.at(x, y, 2) = coverage.error[texel];
-        }
     });
     saveImage(file, atlas, PixelType::float32);
 }
@@ -130,16 +153,11 @@ void saveCoverage(const std::filesystem::path& file, const glm::ivec3& size, con
 Coverage loadCoverage(const std::filesystem::path& file, const glm::ivec3& size)
 {
     const Image atlas = loadAtlas(file, size, 2, 1);
-    const bool knowsError = atlas.channels == 3;
     const size_t texels = static_cast<size_t>(size.x) * size.y * size.z;
-    Coverage coverage{std::vector<float>(texels), std::vector<float>(texels),
-                      std::vector<float>(knowsError ? texels : 0)};
+    Coverage coverage{std::vector<float>(texels), std::vector<float>(texels)};
     forEachTexel(size, [&](size_t texel, int x, int y) {
         coverage.distance[texel] = atlas.at(x, y, 0);
         coverage.count[texel] = atlas.at(x, y, 1);
-        if (knowsError) {
-            coverage.error[texel] = atlas.at(x, y, 2);
-        }
     });
     return coverage;
 }

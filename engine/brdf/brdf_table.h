@@ -17,6 +17,8 @@ struct BrdfTable {
     std::vector<glm::vec3> values;
     // Coverage: 1 where samples lie within a texel's reach, falling to 0 with the distance to the nearest sample.
     std::vector<float> confidence;
+    // Expected relative error of f: nine of ten texels lie within theirs. Empty where nobody tells.
+    std::vector<float> error;
 
     BrdfTable() = default;
     BrdfTable(glm::ivec3 s, TableDomain d)
@@ -33,8 +35,6 @@ struct BrdfTable {
 struct Coverage {
     std::vector<float> distance; // radians to the nearest sample, in raw angles
     std::vector<float> count;    // samples nearest to the texel
-    // Expected relative error of f: nine of ten texels lie within theirs. Empty where nobody tells.
-    std::vector<float> error{};
 };
 
 struct BrdfValue {
@@ -45,18 +45,23 @@ struct BrdfValue {
 // Trilinear, as the sampler of the GPU does it. unit in [0,1]^3.
 BrdfValue sampleTable(const BrdfTable& table, const glm::vec3& unit);
 
+// The expected relative error of a texel, by its coverage where the table tells none (shared/coverage.h); and between
+// texels, where their errors are taken to go the same way, so that they are interpolated like f.
+float expectedError(const BrdfTable& table, size_t texel);
+float sampleError(const BrdfTable& table, const glm::vec3& unit);
+
 // f(n, l, v) of the table; l and v above the horizon of n, or the border's value is returned.
 BrdfValue evaluateTable(const BrdfTable& table, const glm::vec3& n, const glm::vec3& l, const glm::vec3& v);
 
 // Version, shape and domain on one line, as files' metadata have it (docs/formats.md).
 std::string describeShape(const BrdfTable& table);
 
-// One EXR of size.z slices side by side (size.x * size.z by size.y), RGB = f, A = confidence; shape and domain in its
-// metadata (docs/formats.md).
+// One EXR of size.z slices side by side (size.x * size.z by size.y), RGB = f, A = confidence, and the error as a fifth
+// channel where it is told; shape and domain in its metadata (docs/formats.md).
 void saveBrdfTable(const std::filesystem::path& file, const BrdfTable& table);
 BrdfTable loadBrdfTable(const std::filesystem::path& file);
 
-// The same atlas with two channels, distance and count, and a third, error, where it is known.
+// The same atlas with two channels, distance and count.
 void saveCoverage(const std::filesystem::path& file, const glm::ivec3& size, const Coverage& coverage);
 Coverage loadCoverage(const std::filesystem::path& file, const glm::ivec3& size);
 

@@ -9,6 +9,7 @@
 #include <glm/gtc/packing.hpp>
 
 #include "engine/files/error.h"
+#include "shared/coverage.h"
 
 namespace nacre {
 namespace {
@@ -141,12 +142,18 @@ BrdfTable resampledTable(const BrdfTable& table, const glm::ivec3& size, const T
         domain.coordinates == kHalfDifference ? domain.thetaDMax / table.domain.thetaDMax : 1.0f; // of unit.y
     constexpr float kRounding = 1e-5f;
     BrdfTable resampled(size, domain);
+    resampled.error.resize(table.error.empty() ? 0 : resampled.values.size());
     for (size_t texel = 0; texel < resampled.values.size(); ++texel) {
         glm::vec3 unit = unitOfTexel(resampled, texel);
         unit.y *= stretch;
-        const BrdfValue value = sampleTable(table, glm::min(unit, glm::vec3(1)));
+        const bool isWithin = unit.y <= 1 + kRounding;
+        unit = glm::min(unit, glm::vec3(1));
+        const BrdfValue value = sampleTable(table, unit);
         resampled.values[texel] = value.value;
-        resampled.confidence[texel] = unit.y <= 1 + kRounding ? value.confidence : 0;
+        resampled.confidence[texel] = isWithin ? value.confidence : 0;
+        if (!table.error.empty()) {
+            resampled.error[texel] = std::max(sampleError(table, unit), isWithin ? 0 : kUnknownError);
+        }
     }
     return resampled;
 }
@@ -155,7 +162,9 @@ BrdfTable expandedTable(const CompactBrdf& model, const BrdfTable& covered)
 {
     if (const auto* small = std::get_if<SmallTable>(&model)) {
         BrdfTable table = small->table;
-        table.confidence = resampledTable(covered, table.size, table.domain).confidence;
+        const BrdfTable resampled = resampledTable(covered, table.size, table.domain);
+        table.confidence = resampled.confidence;
+        table.error = resampled.error;
         return table;
     }
     const AbcModel& lobe = std::get<FittedLobe>(model).model;

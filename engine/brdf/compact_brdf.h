@@ -50,12 +50,12 @@ std::string describe(const CompactBrdf& model);
 // Of what it takes in memory, coverage apart.
 size_t bytesOf(const CompactBrdf& model);
 
-// The table that the renderer looks up, with the coverage of `covered`: a small table as it is, a lobe on covered's
-// grid. f is never negative.
+// The table that the renderer looks up, with coverage and expected error of `covered`: a small table as it is, a lobe
+// on covered's grid. f is never negative.
 BrdfTable expandedTable(const CompactBrdf& model, const BrdfTable& covered);
 
 // `table` on another grid, trilinear; domains differ in thetaDMax alone. What lies beyond the table's own range has its
-// border's values and confidence 0.
+// border's values, confidence 0 and, where errors are told, at least kUnknownError.
 BrdfTable resampledTable(const BrdfTable& table, const glm::ivec3& size, const TableDomain& domain);
 
 } // namespace nacre

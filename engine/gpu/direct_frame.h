@@ -40,8 +40,8 @@ public:
         const Texture* albedo; // null: all pixels have the material, and albedo 1
         const TableTexture& table;
         int material;
-        int firstRow = 0;      // of the surface, in the target's row 0
-        bool coverage = false; // alpha counts what asks for unmeasured directions, where the table knows them
+        int firstRow = 0;                 // of the surface, in the target's row 0
+        bool coverage = false;            // alpha tells how far off radiance may be, where the table knows
         const Texture* horizon = nullptr; // of the height that casts shadows; null: none does
         const Texture* places = nullptr;  // of the pixels before near lights; null: all lights are drawn as distant
     };
@@ -72,7 +72,7 @@ public:
     };
     struct Look {
         Display display;
-        bool hatched; // stripes where something unmeasured is asked for
+        bool hatched; // stripes where the picture is uncertain
     };
 
     // Drops what was made for another surface.

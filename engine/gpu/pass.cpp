@@ -200,7 +200,7 @@ void beginRendering(VkCommandBuffer commands, const Texture& target, Load load, 
                                           .loadOp = load == Load::clear ? VK_ATTACHMENT_LOAD_OP_CLEAR
                                                                         : VK_ATTACHMENT_LOAD_OP_LOAD,
                                           .storeOp = VK_ATTACHMENT_STORE_OP_STORE,
-                                          .clearValue = {.color = {.float32 = {0, 0, 0, 1}}}};
+                                          .clearValue = {.color = {.float32 = {0, 0, 0, 0}}}};
     const VkRenderingInfo info{.sType = VK_STRUCTURE_TYPE_RENDERING_INFO,
                                .renderArea = area,
                                .layerCount = 1,

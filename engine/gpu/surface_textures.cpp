@@ -104,7 +104,7 @@ TableTexture uploadTable(const Context& context, const BrdfTable& table)
 {
     std::vector<glm::vec4> texels(table.values.size());
     for (size_t i = 0; i < texels.size(); ++i) {
-        texels[i] = glm::vec4(table.values[i], table.confidence[i]);
+        texels[i] = glm::vec4(table.values[i], expectedError(table, i));
     }
     const glm::uvec3 size(table.size);
     return {uploadTexture(context, VK_IMAGE_TYPE_3D, {size.x, size.y, size.z}, kFloatFormat, texels), table.domain,

@@ -40,7 +40,7 @@ bool isPlain(const Surface& surface);
 PixelTextures uploadPixels(const Context& context, const Surface& surface, bool plain, Precision precision);
 
 struct TableTexture {
-    Texture texture; // f in 1/sr, w = confidence
+    Texture texture; // f in 1/sr, w = its expected relative error
     TableDomain domain;
     bool knowsCoverage = false;
 };

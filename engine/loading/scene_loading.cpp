@@ -123,11 +123,6 @@ void noteResidual(const Scene& scene, bool wasMeasured)
     }
 }
 
-std::string percentage(double share)
-{
-    return share < 0.001 ? "below 0.1 %" : fmt::format("{:.1f} %", 100 * share);
-}
-
 } // namespace
 
 LightRig rigFromArgument(const std::string& text)
@@ -223,14 +218,11 @@ Scene loadScene(const SceneDescription& description, const std::filesystem::path
     return scene;
 }
 
-void noteUnmeasured(const Scene& scene)
+void noteUncertain(const Scene& scene)
 {
-    const UnmeasuredShare share = unmeasuredShare(scene);
-    if (share.pixels > 0) {
-        fmt::print(stderr,
-                   "nacre: note: {} of the lit pixels ({} of their light by n.l) lie outside the measured "
-                   "directions, where the BRDF is extrapolated; the coverage picture marks them\n",
-                   percentage(share.pixels), percentage(share.light));
+    const std::string share = describeUncertainShare(uncertainShare(scene));
+    if (!share.empty()) {
+        fmt::print(stderr, "nacre: note: {}, judged by the BRDF alone; --show coverage marks it\n", share);
     }
 }
 

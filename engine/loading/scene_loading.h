@@ -41,7 +41,7 @@ std::vector<Light> lightsOfScene(const SceneDescription& scene, const Environmen
 // out.
 Scene loadScene(const SceneDescription& scene, const std::filesystem::path& fits, const Context& context, bool quiet);
 
-// Where a table was not measured it answers with what is nearest: said on stderr, not refused.
-void noteUnmeasured(const Scene& scene);
+// Says on stderr how much of the picture is uncertain, if any is.
+void noteUncertain(const Scene& scene);
 
 } // namespace nacre

@@ -1,11 +1,13 @@
 #include "engine/scene/coverage.h"
 
 #include <algorithm>
+#include <numeric>
 
+#include <fmt/format.h>
 #include <glm/geometric.hpp>
 
 #include "engine/files/parallel_for.h"
-#include "engine/surface/surface.h"
+#include "shared/shading.h"
 
 namespace nacre {
 namespace {
@@ -14,84 +16,115 @@ constexpr size_t kMostPairs = 4'000'000; // of pixel and light: a fraction of a 
 constexpr size_t kLeastPixels = 400;
 constexpr size_t kGrain = 64; // pixels of one partial sum
 
-// Summed in the order of the grains, so that the share does not depend on threads.
-struct Counts {
-    size_t lit = 0, asking = 0;               // pixels
-    double reaching = 0, unmeasuredLight = 0; // sums of n.l
-};
-
-// Null where nothing of the material's can be beyond what was measured.
-const BrdfTable* tableToAsk(const Material& material)
+// Whether anything of the material's can be uncertain.
+bool canBeUncertain(const Material& material)
 {
     const BrdfTable& table = material.table;
-    const auto covered = [](float confidence) { return confidence >= kCoveredConfidence; };
-    const bool isWhole = std::all_of(table.confidence.begin(), table.confidence.end(), covered) &&
-                         (table.domain.coordinates == kNatural || table.domain.thetaDMax >= kHalfPi);
-    return isWhole || !knowsCoverage(table) ? nullptr : &table;
+    if (!knowsCoverage(table)) {
+        return false;
+    }
+    if (table.domain.coordinates != kNatural && table.domain.thetaDMax < kHalfPi) {
+        return true;
+    }
+    for (size_t texel = 0; texel < table.values.size(); ++texel) {
+        if (expectedError(table, texel) > kUncertainError) {
+            return true;
+        }
+    }
+    return false;
 }
 
-void countPixel(Counts& counts, const BrdfTable* table, const Surface& pixels, size_t pixel, const Scene& scene)
+// At most so many of the pixels that are shaded and face the viewer, evenly spread in reading order.
+std::vector<size_t> facingPixels(const Surface& surface, const glm::vec3& view, size_t most)
 {
-    const glm::vec3& n = pixels.normals.normals[pixel];
-    bool isLit = false, asks = false;
-    for (const Light& light : scene.lights) {
-        const float nDotL = glm::dot(n, light.direction);
-        if (nDotL <= 0 || glm::dot(n, scene.view) <= 0 || light.irradiance == glm::vec3(0)) {
-            continue;
+    std::vector<size_t> all;
+    for (size_t i = 0; i < surface.labels.size(); ++i) {
+        if (isShaded(surface, i) && glm::dot(surface.normals.normals[i], view) > 0) {
+            all.push_back(i);
         }
-        if (visibilityOf(pixels.horizon, horizonLookup(light.direction, pixels.horizon.azimuths), pixel) == 0) {
-            continue;
-        }
-        const bool unmeasured = table != nullptr && asksUnmeasured(*table, n, light.direction, scene.view);
-        isLit = true;
-        asks = asks || unmeasured;
-        counts.reaching += nDotL;
-        counts.unmeasuredLight += unmeasured ? nDotL : 0;
     }
-    counts.lit += isLit;
-    counts.asking += asks;
+    const size_t count = std::min(all.size(), most);
+    for (size_t i = 0; i < count; ++i) {
+        all[i] = all[i * all.size() / count];
+    }
+    all.resize(count);
+    return all;
 }
 
 } // namespace
 
 bool knowsCoverage(const BrdfTable& table)
 {
-    return std::any_of(table.confidence.begin(), table.confidence.end(), [](float c) { return c > 0; });
+    return !table.error.empty() ||
+           std::any_of(table.confidence.begin(), table.confidence.end(), [](float c) { return c > 0; });
 }
 
-bool asksUnmeasured(const BrdfTable& table, const glm::vec3& n, const glm::vec3& l, const glm::vec3& v)
+float expectedError(const BrdfTable& table, const glm::vec3& n, const glm::vec3& l, const glm::vec3& v)
 {
-    const float thetaD = halfDifferenceFromDirections(n, l, v).thetaD;
-    const float coverage = evaluateTable(table, n, l, v).confidence;
-    return !isMeasured(coverage, thetaD, table.domain.coordinates, table.domain.thetaDMax);
+    return errorWithinTable(sampleError(table, unitFromDirections(table.domain, n, l, v)),
+                            halfDifferenceFromDirections(n, l, v).thetaD, table.domain.coordinates,
+                            table.domain.thetaDMax);
 }
 
-UnmeasuredShare unmeasuredShare(const Scene& scene, int threads)
+PixelCertainty certaintyOf(const Surface& surface, size_t pixel, const PixelLights& lights, const glm::vec3& view)
 {
-    std::vector<const BrdfTable*> tables;
-    for (const Material& material : scene.surface.materials) {
-        tables.push_back(tableToAsk(material));
+    const glm::vec3& n = surface.normals.normals[pixel];
+    const BrdfTable& table = surface.materials[surface.labels[pixel]].table;
+    PixelCertainty certainty;
+    float beyond = 0;
+    for (size_t i = 0; i < lights.size(); ++i) {
+        const PixelLights::Met met = lights.at(i, pixel);
+        const glm::vec3& l = met.light.direction;
+        const float nDotL = glm::dot(n, l);
+        if (nDotL > 0 && met.share > 0 && met.light.irradiance != glm::vec3(0)) {
+            const glm::vec3 f = evaluateTable(table, n, l, view).value;
+            beyond += errorBeyondBound(expectedError(table, n, l, view),
+                                       met.share * radianceFromBrdf(f, met.light.irradiance, nDotL));
+            certainty.isLit = true;
+        }
     }
-    if (scene.lights.empty() || std::all_of(tables.begin(), tables.end(), [](auto t) { return t == nullptr; })) {
-        return {};
+    certainty.isUncertain = beyond > 0;
+    return certainty;
+}
+
+double uncertainShare(const Surface& surface, std::span<const Light> lights, const glm::vec3& view, size_t mostPairs,
+                      int threads)
+{
+    std::vector<uint8_t> canBe;
+    for (const Material& material : surface.materials) {
+        canBe.push_back(canBeUncertain(material));
     }
-    const Surface pixels = sampledPixels(scene.surface, std::max(kLeastPixels, kMostPairs / scene.lights.size()));
-    std::vector<Counts> grains(pixels.labels.size() / kGrain + 1);
-    parallelFor(pixels.labels.size(), kGrain, threads, [&](size_t first, size_t last) {
+    if (lights.empty() || std::count(canBe.begin(), canBe.end(), 1) == 0) {
+        return 0;
+    }
+    const std::vector<size_t> pixels = facingPixels(surface, view, std::max(kLeastPixels, mostPairs / lights.size()));
+    const PixelLights met(surface, lights);
+    std::vector<size_t> lit(pixels.size() / kGrain + 1), uncertain(lit.size());
+    parallelFor(pixels.size(), kGrain, threads, [&](size_t first, size_t last) {
         for (size_t i = first; i < last; ++i) {
-            if (pixels.normals.confidence[i] > 0) {
-                countPixel(grains[first / kGrain], tables[pixels.labels[i]], pixels, i, scene);
-            }
+            const PixelCertainty pixel = certaintyOf(surface, pixels[i], met, view);
+            lit[first / kGrain] += pixel.isLit;
+            uncertain[first / kGrain] += pixel.isUncertain && canBe[surface.labels[pixels[i]]];
         }
     });
-    Counts sum;
-    for (const Counts& grain : grains) {
-        sum.lit += grain.lit, sum.asking += grain.asking;
-        sum.reaching += grain.reaching, sum.unmeasuredLight += grain.unmeasuredLight;
+    const auto sum = [](const std::vector<size_t>& counts) {
+        return static_cast<double>(std::accumulate(counts.begin(), counts.end(), size_t{0}));
+    };
+    return sum(uncertain) / std::max(1.0, sum(lit));
+}
+
+double uncertainShare(const Scene& scene, int threads)
+{
+    return uncertainShare(scene.surface, scene.lights, scene.view, kMostPairs, threads);
+}
+
+std::string describeUncertainShare(double share)
+{
+    if (share <= 0) {
+        return "";
     }
-    return sum.lit == 0 ? UnmeasuredShare{}
-                        : UnmeasuredShare{static_cast<double>(sum.asking) / static_cast<double>(sum.lit),
-                                          sum.unmeasuredLight / sum.reaching};
+    const std::string percent = share < 0.001 ? "below 0.1 %" : fmt::format("{:.1f} %", 100 * share);
+    return fmt::format("{} of this picture is uncertain by more than {:.0f} %", percent, 100 * kUncertainError);
 }
 
 } // namespace nacre

@@ -8,7 +8,6 @@
 
 #include "engine/scene/coverage.h"
 #include "engine/scene/reference.h"
-#include "engine/surface/object_places.h"
 #include "shared/light_frame.h"
 
 namespace nacre {
@@ -26,14 +25,6 @@ bool isShown(const Scene& scene, size_t pixel)
            glm::dot(surface.normals.normals[pixel], scene.view) > 0;
 }
 
-bool anyLightAsksUnmeasured(const Scene& scene, const BrdfTable& table, const glm::vec3& n, const glm::vec3& place)
-{
-    return std::any_of(scene.lights.begin(), scene.lights.end(), [&](const Light& given) {
-        const Light light = lightAt(given, place);
-        return glm::dot(n, light.direction) > 0 && asksUnmeasured(table, n, light.direction, scene.view);
-    });
-}
-
 glm::vec3 rounded(const glm::vec3& code)
 {
     return glm::round(code * 255.0f) / 255.0f;
@@ -46,14 +37,11 @@ Image hatchedPicture(const Scene& scene, const Display& display, int threads)
     for (const Material& material : surface.materials) {
         known.push_back(knowsCoverage(material.table));
     }
-    const std::vector<glm::vec3> places =
-        anyIsNear(scene.lights) ? pixelPlaces(surface) : std::vector(surface.labels.size(), glm::vec3(0));
+    const PixelLights lights(surface, scene.lights);
     Image picture = displayedImage(renderReference(scene, threads), display);
     for (size_t pixel = 0; pixel < picture.pixelCount(); ++pixel) {
-        const glm::vec3& n = surface.normals.normals[pixel];
-        const uint8_t label = surface.labels[pixel];
-        if (isShown(scene, pixel) && known[label] &&
-            anyLightAsksUnmeasured(scene, surface.materials[label].table, n, places[pixel])) {
+        if (isShown(scene, pixel) && known[surface.labels[pixel]] &&
+            certaintyOf(surface, pixel, lights, scene.view).isUncertain) {
             const auto x = static_cast<int>(pixel % picture.width), y = static_cast<int>(pixel / picture.width);
             picture.setRgb(x, y, rounded(hatched(picture.rgb(x, y), {x, y})));
         }

@@ -7,9 +7,8 @@
 
 namespace nacre {
 
-// What a picture shows of a scene. coverage is the picture with stripes where any light that reaches the pixel asks
-// the material's table for what was not measured. thetaH and thetaD are those of the brightest light, as the
-// object's middle meets it, where it reaches.
+// What a picture shows of a scene. coverage is the picture with stripes where it is uncertain (coverage.h). thetaH and
+// thetaD are those of the brightest light, as the object's middle meets it, where it reaches.
 enum class Show {
     picture = kShowPicture,
     normals = kShowNormals,

@@ -7,7 +7,7 @@
 
 #include "engine/files/parallel_for.h"
 #include "engine/scene/ball.h"
-#include "engine/surface/object_places.h"
+#include "engine/scene/pixel_lights.h"
 #include "shared/shading.h"
 
 namespace nacre {
@@ -16,32 +16,15 @@ namespace {
 // A scene's lights, once for all pixels.
 struct PreparedLights {
     ResidualFrame residual;
-    std::vector<glm::vec4> lookups; // horizonLookup of each
-    std::vector<glm::vec3> places;  // of the pixels, where a light is near
+    PixelLights met;
 };
 
 PreparedLights prepare(const Scene& scene)
 {
-    PreparedLights prepared;
     const ResidualUse use = isFromTheFront(scene.view) ? ResidualUse::on : ResidualUse::off;
-    prepared.residual = residualFrame(scene.surface.residual, scene.lights, use);
-    for (const Light& light : scene.lights) {
-        prepared.lookups.push_back(horizonLookup(light.direction, scene.surface.horizon.azimuths));
-    }
-    if (anyIsNear(scene.lights)) {
-        prepared.places = pixelPlaces(scene.surface);
-    }
-    return prepared;
-}
-
-glm::vec3 radianceOfLight(const Scene& scene, const PreparedLights& lights, size_t light, size_t pixel)
-{
-    const Surface& surface = scene.surface;
-    const Light& base = lights.residual.base[light];
-    const Light met = isNear(base) ? lightAt(base, lights.places[pixel]) : base;
-    const glm::vec4 lookup =
-        isNear(base) ? horizonLookup(met.direction, surface.horizon.azimuths) : lights.lookups[light];
-    return visibilityOf(surface.horizon, lookup, pixel) * brdfRadiance(surface, pixel, met, scene.view);
+    ResidualFrame residual = residualFrame(scene.surface.residual, scene.lights, use);
+    const std::span<const Light> base = residual.base; // stays where it is as the frame moves
+    return {std::move(residual), PixelLights(scene.surface, base)};
 }
 
 // What the BRDF says, and what it does not know.
@@ -61,7 +44,8 @@ glm::vec3 radianceOfPixel(const Scene& scene, const PreparedLights& lights, size
     }
     glm::vec3 sum(0);
     for (size_t i = 0; i < scene.lights.size(); ++i) {
-        sum += radianceOfLight(scene, lights, i, pixel);
+        const PixelLights::Met met = lights.met.at(i, pixel);
+        sum += met.share * brdfRadiance(surface, pixel, met.light, scene.view);
     }
     return withResidual(scene, lights.residual, sum, pixel);
 }

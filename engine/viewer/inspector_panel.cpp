@@ -41,7 +41,7 @@ float meanOf(const glm::vec3& f)
 struct LobeSample {
     float angle = 0; // radians from the normal in the plane of incidence, positive on the side away from the light
     glm::vec3 f{0};  // 1/sr without the cosine
-    bool isMeasured = false;
+    bool isCertain = false;
 };
 
 // f(n, l, v) for light from `incidence` radians and `count` viewers over the plane of incidence, horizon to horizon.
@@ -53,13 +53,14 @@ std::vector<LobeSample> sampleLobe(const BrdfTable& table, float incidence, int 
         const float share = (static_cast<float>(i) + 0.5f) / static_cast<float>(count); // the horizons have no f
         const float angle = (2 * share - 1) * kHalfPi;
         const glm::vec3 v(std::sin(angle), 0, std::cos(angle));
-        samples.push_back({angle, evaluateTable(table, n, l, v).value, !asksUnmeasured(table, n, l, v)});
+        samples.push_back(
+            {angle, evaluateTable(table, n, l, v).value, expectedError(table, n, l, v) <= kUncertainError});
     }
     return samples;
 }
 
 // Over the width of ImGui's window; `height` in pixels. The lobe about the normal (up), the light's direction as a
-// line; what was not measured is dim. The radius is f's mean over channels, relative to its largest value.
+// line; what is uncertain is dim. The radius is f's mean over channels, relative to its largest value.
 void plotLobe(std::span<const LobeSample> samples, float incidence, float height)
 {
     const float width = ImGui::GetContentRegionAvail().x, margin = 0.08f * height;
@@ -78,12 +79,12 @@ void plotLobe(std::span<const LobeSample> samples, float incidence, float height
     list.AddLine(foot, place(0, reach), kAxis);
     list.AddLine(foot, place(-incidence, reach), IM_COL32(255, 214, 90, 255), 0.02f * height);
     for (size_t i = 0; i + 1 < samples.size(); ++i) {
-        const bool isMeasured = samples[i].isMeasured && samples[i + 1].isMeasured;
+        const bool isCertain = samples[i].isCertain && samples[i + 1].isCertain;
         list.AddLine(place(samples[i].angle, reach * meanOf(samples[i].f) / largest),
                      place(samples[i + 1].angle, reach * meanOf(samples[i + 1].f) / largest),
-                     isMeasured ? IM_COL32(120, 220, 140, 255) : IM_COL32(120, 220, 140, 90), 0.014f * height);
+                     isCertain ? IM_COL32(120, 220, 140, 255) : IM_COL32(120, 220, 140, 90), 0.014f * height);
     }
-    ImGui::TextDisabled("f to %.3g / sr (dim: guessed)", largest);
+    ImGui::TextDisabled("f to %.3g / sr (dim: uncertain)", largest);
 }
 
 // Observations over n.l from 0 to 1, coloured by their verdict, and what the model predicts of each as a short line.

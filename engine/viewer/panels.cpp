@@ -81,7 +81,7 @@ void showWipeLine(const Session& session, const Stage& stage)
     }
 }
 
-bool showStatus(const Session& session, const Loader* busy, const Stage& stage)
+bool showStatus(const Session& session, const Loader* busy, const Stage& stage, const std::string& remark)
 {
     const Area& area = stage.area;
     bool isCancelled = false;
@@ -100,8 +100,8 @@ bool showStatus(const Session& session, const Loader* busy, const Stage& stage)
     } else if (!session.message.empty()) {
         ImGui::TextUnformatted(session.message.c_str());
     } else {
-        ImGui::TextDisabled("%d x %d   zoom %.0f %%   H: help", stage.picture.x, stage.picture.y,
-                            static_cast<double>(100 * framingOf(session, stage).zoom));
+        ImGui::TextDisabled("%d x %d   zoom %.0f %%   H: help   %s", stage.picture.x, stage.picture.y,
+                            static_cast<double>(100 * framingOf(session, stage).zoom), remark.c_str());
     }
     ImGui::End();
     ImGui::PopStyleVar();

@@ -7,6 +7,7 @@
 
 #include "engine/files/measures.h"
 #include "engine/loading/scene_loading.h"
+#include "engine/scene/coverage.h"
 #include "engine/scene/scene_residual.h"
 #include "engine/surface/normal_map.h"
 #include "engine/viewer/placed_picture.h"
@@ -14,7 +15,8 @@
 namespace nacre {
 namespace {
 
-constexpr float kDifferenceGain = 2; // of codes, around middle grey
+constexpr float kDifferenceGain = 2;           // of codes, around middle grey
+constexpr size_t kMostCertaintyPairs = 20'000; // of pixel and light: milliseconds
 
 // The picture fitted into another size as surfaces are (fittedPixels), 0 outside.
 Image fittedPicture(const Image& picture, int width, int height)
@@ -103,6 +105,7 @@ void ViewPictures::applyVerdicts(const ViewState& state)
 void ViewPictures::apply(ViewState& state, const glm::vec3& view, std::span<const CapturedLight> captured)
 {
     lights_ = lightsOfScene(state, scene_.environment.get(), captured);
+    view_ = view;
     wipeAt_ = state.wipe.at;
     if (!state.exposure) {
         main_.setView(view);
@@ -160,6 +163,15 @@ Image ViewPictures::picture()
         }
     }
     return picture;
+}
+
+double ViewPictures::uncertainShare()
+{
+    if (!uncertain_ || uncertain_->first != main_.drawnPictures()) {
+        uncertain_ = {main_.drawnPictures(),
+                      nacre::uncertainShare(scene_.main->surface, lights_, view_, kMostCertaintyPairs)};
+    }
+    return uncertain_->second;
 }
 
 void PhotographComparison::update(const Session& session, const Photographs* photographs, ViewPictures& pictures)

@@ -30,6 +30,8 @@ public:
     Image picture();
     // Of the main one, linear.
     Frame radiance() { return main_.radiance(); }
+    // Of the main one, drawn last, by a sample of its pixels (coverage.h).
+    double uncertainShare();
 
     const LoadedScene& scene() const { return scene_; }
     std::span<const Light> lights() const { return lights_; }
@@ -58,8 +60,10 @@ private:
     const Photographs* photographs_ = nullptr;
     std::optional<Verdicts> verdicts_; // in place of the renders
     std::vector<Light> lights_;
+    glm::vec3 view_{0, 0, 1};
     Display display_;
     float wipeAt_ = 1;
+    std::optional<std::pair<size_t, double>> uncertain_; // the main one's number, and its share
 };
 
 // A photograph or its difference to the render in the render's place, and figures of both.

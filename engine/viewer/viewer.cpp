@@ -15,6 +15,7 @@
 #include "engine/files/whole_file.h"
 #include "engine/gpu/renderer.h"
 #include "engine/gpu/texture.h"
+#include "engine/scene/coverage.h"
 #include "engine/scene/scene_residual.h"
 #include "engine/surface/surface.h"
 #include "engine/viewer/background_loads.h"
@@ -350,7 +351,10 @@ void ViewerWindow::describePanels(const Stage& stage)
     if (comparison_.picture() == nullptr) {
         showWipeLine(session_, stage);
     }
-    if (showStatus(session_, loads_.busy(), stage)) {
+    const bool isRendered = comparison_.picture() == nullptr &&
+                            (session_.state.show == Show::picture || session_.state.show == Show::coverage);
+    const std::string remark = isRendered ? describeUncertainShare(pictures_.uncertainShare()) : "";
+    if (showStatus(session_, loads_.busy(), stage, remark)) {
         const bool wasScene = loads_.readsScene();
         session_.message = fmt::format("cancelled {}", loads_.cancel());
         if (wasScene) {
@@ -423,6 +427,9 @@ void viewHeadless(const Context& context, ViewState state, const Choices& choice
     requireResidual(pictures.scene().main->surface, view, state.residual);
     pictures.apply(state, view, choices.captured);
     saveScreenshot(output, pictures.picture(), state);
+    if (const double share = pictures.uncertainShare(); share > 0) {
+        fmt::print("uncertain    {}, judged by the BRDF alone\n", describeUncertainShare(share));
+    }
     if (!pictures.verdicts().empty()) {
         fmt::print("verdicts     {}\n", describeVerdicts(pictures.verdicts()));
     }

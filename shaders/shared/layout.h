@@ -9,7 +9,7 @@ NACRE_SHARED_BEGIN
 // Sampled 2D: xyz unit normal in the camera frame, w confidence (all 0 = no data); or packed, see ball.h.
 const int kBindingNormals = 0;
 const int kBindingAlbedo = 1;  // sampled 2D: RGB albedo factor, w material index as a float, 255 = none
-const int kBindingTable = 2;   // sampled 3D: BRDF in 1/sr, w coverage
+const int kBindingTable = 2;   // sampled 3D: BRDF in 1/sr, w its expected relative error
 const int kBindingLights = 3;  // uniform buffer of kLightsPerGroup LightFrame
 const int kBindingInput = 4;   // sampled 2D: what an earlier pass drew (radiance, or balls)
 const int kBindingHorizon = 5; // sampled 2D array: a layer an azimuth, codes of horizon.h / 255
@@ -19,9 +19,6 @@ const int kBindingResidualWeights = 7; // texel buffer: ResidualWeights
 
 const int kBindingPlaces = 8; // sampled 2D: xyz the pixel's point in widths of the object, see near_light.h
 
-// Alpha of radiance is cleared to 1 and counts up by what asks for unmeasured directions.
-const float kUnmeasuredAlpha = 1.5f;
-
 // Lights of one draw. The loop over them is unrolled, so that their fields are loaded once for all pixels.
 const int kLightsPerGroup = 4;
 
@@ -30,7 +27,7 @@ const int kConstantLightCount = 0;        // direct.frag: lights of the group, 1
 const int kConstantCoordinates = 1;       // direct.frag: of the table
 const int kConstantOneMaterial = 2;       // direct.frag: all pixels have it and albedo 1
 const int kConstantPacked = 3;            // direct.frag: normals are packed
-const int kConstantCoverage = 4;          // direct.frag: counts what asks for unmeasured directions
+const int kConstantCoverage = 4;          // direct.frag: alpha tells how far off radiance may be
 const int kConstantShadows = 5;           // direct.frag: the height casts shadows
 const int kConstantNear = 6;              // direct.frag: some light of the group is near
 const int kConstantModulated = 0;         // ball*.frag, floor.frag, false_colour.frag: factors and labels
@@ -39,7 +36,7 @@ const int kConstantBallResidual = 2;      // ball.frag: components, in fours; 0:
 const int kConstantPackedNormals = 0;     // residual.frag
 const int kConstantResidualFours = 1;     // residual.frag: components, in fours
 const int kConstantResidualModulated = 2; // residual.frag: pixels have labels
-const int kConstantHatched = 0;           // display.frag: stripes where something unmeasured was asked for
+const int kConstantHatched = 0;           // display.frag: stripes where alpha is positive
 const int kConstantShow = 1;              // false_colour.frag
 
 struct DirectConstants {

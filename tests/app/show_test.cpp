@@ -1,4 +1,4 @@
-// nacre render --show, and what it says of directions that were not measured.
+// nacre render --show, and what it says of uncertain pictures.
 #include <algorithm>
 
 #include <glm/geometric.hpp>
@@ -72,18 +72,17 @@ TEST_F(ShowTest, BadViewsAreUsageErrors)
 }
 
 // The table spans lights up to 90 degrees from the view.
-TEST_F(ShowTest, SaysWhatShareWasNotMeasured)
+TEST_F(ShowTest, SaysWhatShareIsUncertain)
 {
     const ProgramRun within = render("a.png", {"--light", "0.5,0,1"});
     EXPECT_EQ(within.err, "");
     const ProgramRun side = render("b.png", {"--light", "1,0,0.1", "--view=-1,0,0.5"});
-    EXPECT_NE(side.err.find("100.0 % of the lit pixels (100.0 % of their light by n.l)"), std::string::npos)
-        << side.err;
+    EXPECT_NE(side.err.find("100.0 % of this picture is uncertain by more than 20 %"), std::string::npos) << side.err;
     EXPECT_EQ(std::count(side.err.begin(), side.err.end(), '\n'), 1);
     const ProgramRun transferred =
         render("c.png", {"--onto", path("s.nacre"), "--light", "1,0,-0.2", "--light", "0,0,1"});
     EXPECT_EQ(transferred.exitCode, 0);
-    EXPECT_NE(transferred.err.find("the coverage picture marks them"), std::string::npos) << transferred.err;
+    EXPECT_NE(transferred.err.find("--show coverage marks it"), std::string::npos) << transferred.err;
     EXPECT_EQ(render("d.png", {"--light", "1,0,-0.2", "--quiet"}).err, "");
 }
 

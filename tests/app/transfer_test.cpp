@@ -104,7 +104,7 @@ TEST_F(LibraryTest, EveryRigHasASheetOfEveryMaterialOnEveryTarget)
 }
 
 // A front light asks for nothing, one from the side for what was never measured; the stripes stand where it does.
-TEST_F(LibraryTest, UnmeasuredAnglesAreSaidAndHatched)
+TEST_F(LibraryTest, UncertainPicturesAreSaidAndHatched)
 {
     const std::string material = saveMaterials("a.nacre", {"skin"});
     const std::vector<std::string> arguments{"--materials", material, "--onto", "make:sphere", "--rig"};
@@ -119,7 +119,7 @@ TEST_F(LibraryTest, UnmeasuredAnglesAreSaidAndHatched)
     ASSERT_EQ(measured.exitCode, 0) << measured.err;
     const ProgramRun raking = with({"raking"});
     ASSERT_EQ(raking.exitCode, 0) << raking.err;
-    EXPECT_NE(raking.out.find("100.0 % of the lit pixels"), std::string::npos) << raking.out;
+    EXPECT_NE(raking.out.find("100.0 % of this picture is uncertain"), std::string::npos) << raking.out;
     const Image plain = loadImage(path("out/raking_a_on_sphere.png"));
     ASSERT_EQ(with({"raking", "--hatch"}).exitCode, 0);
     const Image hatched = loadImage(path("out/raking_a_on_sphere.png"));

@@ -87,6 +87,23 @@ TEST(CompactBrdf, ResamplesOntoAWiderRangeWithoutCoverage)
     EXPECT_GT(sampleTable(wider, half).confidence, 0.9f);
 }
 
+TEST(CompactBrdf, KeepsTheExpectedError)
+{
+    BrdfTable table = fullTable();
+    table.error.assign(table.values.size(), 0.1f);
+    const BrdfTable wider = resampledTable(table, kSize, {kHalfDifference, 2 * kDomain.thetaDMax});
+    EXPECT_FLOAT_EQ(sampleError(wider, {0.4f, 0.3f, 0.5f}), 0.1f);
+    EXPECT_FLOAT_EQ(sampleError(wider, {0.4f, 0.8f, 0.5f}), kUnknownError) << "beyond the table's own range";
+    for (const CompactBrdf& model : models()) {
+        const TempFolder folder;
+        Surface surface = surfaceOf(model);
+        surface.materials.front().table = expandedTable(model, table);
+        saveSurface(folder.path() / "s.nacre", surface, false);
+        const BrdfTable loaded = loadSurface(folder.path() / "s.nacre").materials.front().table;
+        EXPECT_FLOAT_EQ(sampleError(loaded, {0.4f, 0.3f, 0.5f}), 0.1f) << nameOf(model);
+    }
+}
+
 TEST(CompactBrdf, RefusesModelsThatItDoesNotKnow)
 {
     const TempFolder folder;

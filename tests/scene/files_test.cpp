@@ -190,6 +190,7 @@ TEST(SurfaceFiles, RoundTripAndReplacement)
     const TempFolder folder;
     Surface surface = transferredSurface(sphereNormalMap(16), {"plastic", smallTable(), {}});
     surface.materials[0].coverage = {std::vector<float>(60, 0.25f), std::vector<float>(60, 3)};
+    surface.materials[0].table.error.assign(60, 0.25f);
     surface.lights = {{"a.png", {{0, 0.6f, 0.8f}, {1, 2, 3}}}};
     surface.albedo = Image(16, 16, 3, 1.5f);
     surface.scale = RadianceScale::absolute;
@@ -201,6 +202,7 @@ TEST(SurfaceFiles, RoundTripAndReplacement)
     EXPECT_EQ(back.normals.confidence, surface.normals.confidence);
     EXPECT_EQ(back.materials[0].name, "plastic");
     EXPECT_EQ(back.materials[0].table.values, surface.materials[0].table.values);
+    EXPECT_EQ(back.materials[0].table.error, surface.materials[0].table.error);
     EXPECT_EQ(back.materials[0].coverage.count, surface.materials[0].coverage.count);
     EXPECT_EQ(back.albedo.values, surface.albedo.values);
     EXPECT_EQ(back.lights[0].photograph, "a.png");
