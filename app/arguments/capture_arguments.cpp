@@ -195,9 +195,9 @@ void CaptureArguments::addTo(CLI::App& command)
         ->delimiter(',')
         ->option_text("NAME[,NAME]")
         ->group(kNormals);
-    command.add_option("--json", json, "File for the summary as JSON")->option_text("FILE")->group(kRunning);
+    command.add_option("--json", json, "File for the summary as JSON")->option_text("OUT.json")->group(kRunning);
     command.add_option("--debug-dir", debugFolder, "Folder for a picture of every stage's result")
-        ->option_text("DIR")
+        ->option_text("OUT")
         ->group(kRunning);
 }
 

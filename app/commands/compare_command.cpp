@@ -23,6 +23,7 @@ struct CompareArguments {
     std::filesystem::path reference;
     std::filesystem::path mask;
     std::filesystem::path json;
+    bool force = false;
     double peak = 0;
     double atLeast = 0;
     int codeTolerance = kCodeTolerance;
@@ -102,6 +103,7 @@ void runCompare(const CompareArguments& arguments)
         throw Error("", fmt::format("--code-tolerance {} is not possible", arguments.codeTolerance), "0 to 255",
                     Error::kUsage);
     }
+    requireSummary(arguments.json, arguments.force);
     const Comparison found = compare(arguments);
     fmt::print("PSNR {:.2f} dB of radiance, peak {:.4g}\n", found.psnr, found.peak);
     fmt::print("SSIM {:.5f}; codes differ by {} of 255 at most, {:.3f} % of the pixels by more than {}\n",
@@ -135,7 +137,8 @@ void addCompareCommand(CLI::App& app)
                         "Largest difference, in codes of 255, of pixels that are not counted [4]");
     command->add_option("--ssim-at-least", arguments->ssimAtLeast,
                         "Least structural similarity, below which the exit code is 1");
-    command->add_option("--json", arguments->json, "File for the figures as JSON");
+    command->add_option("--json", arguments->json, "File for the figures as JSON")->option_text("OUT.json");
+    command->add_flag("--force", arguments->force, "Replacement of an existing output");
     command->footer("Example:\n  nacre compare render.exr horse.4.tga --mask horse.mask.tga --at-least 20");
     command->callback([arguments] { runCompare(*arguments); });
 }

@@ -208,27 +208,24 @@ void requireOutputs(const ExportArguments& arguments)
             outputs.begin() + static_cast<std::ptrdiff_t>(i)) {
             throw usageError(fmt::format("{} is asked for twice", outputs[i].string()), "a name for each output");
         }
-        if (outputs[i] != arguments.web && fs::is_directory(outputs[i])) {
-            throw Error(outputs[i], "is a folder", "the name of a file");
+        if (outputs[i] != arguments.web) {
+            requireFile(outputs[i], arguments.force);
         }
-        requireDestination(outputs[i], arguments.force);
     }
-    // A name that is mistyped should not take away a folder of something else.
-    if (arguments.force && fs::is_directory(arguments.web) && !fs::is_empty(arguments.web) &&
-        !fs::exists(arguments.web / "info.json")) {
-        throw Error(arguments.web, "is a folder of something else", "a new name, or one that --rti-web wrote");
-    }
+    requireWholeFolder(arguments.web, arguments.force, "info.json");
 }
 
 void ExportArguments::addTo(CLI::App& command)
 {
-    command.add_option("SURFACE", surface, "Folder NAME.nacre of nacre acquire")->required();
+    command.add_option("SURFACE", surface, "Folder NAME.nacre of nacre acquire")
+        ->option_text("OUT.png|OUT.exr")
+        ->required();
     command.add_option("--ptm", ptm, "Polynomial texture map to write, FILE.ptm")->option_text("FILE");
     command
         .add_option("--ptm-format", ptmFormat, "Format of the PTM: lrgb (one biquadratic and a colour a pixel) or rgb")
         ->capture_default_str();
     command.add_option("--rti-web", web, "Folder for info.json and plane_N.jpg, for OpenLIME and relight")
-        ->option_text("DIR");
+        ->option_text("OUT");
     command.add_option("--basis", basis, "Functions of --rti-web: hsh (nine) or ptm (six)")->capture_default_str();
     command.add_option("--write-normals", normals, "Normals to write, .png (16 bits, (n + 1) / 2) or .exr")
         ->option_text("FILE");

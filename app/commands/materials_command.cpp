@@ -239,9 +239,9 @@ void checkArguments(const MaterialsArguments& arguments)
         if (arguments.output.extension() != ".png") {
             throw Error(arguments.output, "is nothing that materials writes", ".png (a sheet of balls)", Error::kUsage);
         }
-        requireDestination(arguments.output, arguments.force);
+        requireFile(arguments.output, arguments.force);
     }
-    requireSummaryDestination(arguments.json);
+    requireSummary(arguments.json, arguments.force);
 }
 
 // The end of a name tells materials apart.
@@ -320,8 +320,8 @@ void addMaterialsCommand(CLI::App& app)
                         ".binary, .bsdf, .exr, merl-abc:NAME, ...");
     command->add_option("--fits", arguments->fits,
                         "Folder of merl_abc_params.csv and merl_sgd_params.csv, to list the published fits as well");
-    command->add_option("-o,--output", arguments->output, "Sheet of balls (.png)");
-    command->add_option("--json", arguments->json, "File for the list as JSON");
+    command->add_option("-o,--output", arguments->output, "Sheet of balls (.png)")->option_text("OUT.png");
+    command->add_option("--json", arguments->json, "File for the list as JSON")->option_text("OUT.json");
     command->add_option("--threads", arguments->threads, "Threads (0: all)")
         ->check(CLI::NonNegativeNumber)
         ->capture_default_str();

@@ -73,7 +73,8 @@ void runView(const ViewArguments& arguments)
     SceneDescription scene = sceneFrom(arguments);
     check(arguments, scene);
     if (arguments.headless) {
-        requireDestination(arguments.output, arguments.force);
+        requireFile(arguments.output, arguments.force);
+        requireFile(std::filesystem::path(arguments.output).replace_extension(".json"), arguments.force);
     }
     const PictureSize size = sizeFromArgument("--window", arguments.window.empty() ? "1280x720" : arguments.window);
     makeAbsolute(scene);
@@ -115,8 +116,9 @@ void addViewCommand(CLI::App& app)
     command->add_option("--window", arguments->window, "Size of the window in pixels, WxH [1280x720]")
         ->group("Running");
     command->add_flag("--headless", arguments->headless, "Picture of --output instead of a window");
-    command->add_option("-o,--output", arguments->output,
-                        "Picture for --headless, .png; its state is written beside it");
+    command
+        ->add_option("-o,--output", arguments->output, "Picture for --headless, .png; its state is written beside it")
+        ->option_text("OUT.png");
     command->add_flag("--force", arguments->force, "Replacement of existing outputs");
     command->footer("Example:\n  nacre view horse.nacre --capture horse\n  nacre view horse.nacre --onto cloth.exr\n"
                     "  nacre view --state nacre-0001.json --headless -o again.png\nIn the window, H shows the keys.");

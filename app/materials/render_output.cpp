@@ -99,7 +99,7 @@ RenderOutput checkedOutput(const SceneDescription& scene, const fs::path& file, 
                               .isAnimation = extension == kAnimation};
     checkLook(output);
     for (int frame = 0; frame < output.frames; ++frame) {
-        requireDestination(fileOfFrame(file, frame, output.frames), force);
+        requireFile(fileOfFrame(file, frame, output.frames), force);
     }
     return output;
 }

@@ -68,6 +68,8 @@ inline glm::vec3 albedoFactor(const Surface& surface, size_t pixel)
     return a == nullptr ? glm::vec3(1) : glm::vec3(a[0], a[1], a[2]);
 }
 
+inline constexpr const char* kSurfaceDescription = "surface.json";
+
 // surface.json, normals.exr, labels.png, albedo.exr (where estimated), height.exr (where known), material_N.exr and
 // material_N_coverage.exr, residual_NN.png and residual_weights.exr (where there is a residual layer).
 // Written into a temporary folder, then renamed; an existing folder is refused without `replace`.

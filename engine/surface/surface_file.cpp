@@ -339,13 +339,13 @@ void saveSurface(const fs::path& folder, const Surface& surface, bool replace)
     if (!surface.residual.empty()) {
         json["residual"] = saveResidual(to, surface.residual);
     }
-    writeTextFile(to / "surface.json", json.dump(2) + "\n");
+    writeTextFile(to / kSurfaceDescription, json.dump(2) + "\n");
     output.commit();
 }
 
 Surface loadSurface(const fs::path& folder)
 {
-    const fs::path file = folder / "surface.json";
+    const fs::path file = folder / kSurfaceDescription;
     if (!fs::is_directory(folder) || !fs::exists(file)) {
         throw Error(folder, "is not a surface", "a folder NAME.nacre that `nacre acquire` or `nacre target` wrote");
     }
