@@ -13,6 +13,7 @@
 #include "app/report/progress_line.h"
 #include "engine/files/error.h"
 #include "engine/files/stopwatch.h"
+#include "engine/files/text_files.h"
 
 namespace nacre {
 
@@ -62,7 +63,7 @@ AcquireOptions optionsOf(const AcquireArguments& arguments)
 // Refuses now what it would refuse after the work.
 void checkOutputs(const AcquireArguments& arguments)
 {
-    if (arguments.output.extension() != ".nacre") {
+    if (lowerExtension(arguments.output) != ".nacre") {
         throw Error(arguments.output, "is no name for a surface", "-o NAME.nacre", Error::kUsage);
     }
     const bool force = arguments.common.force;

@@ -17,6 +17,7 @@
 #include "engine/files/error.h"
 #include "engine/files/measures.h"
 #include "engine/files/parallel_for.h"
+#include "engine/files/text_files.h"
 #include "engine/files/whole_file.h"
 #include "engine/materials/ktx2_file.h"
 #include "engine/materials/material_specification.h"
@@ -170,7 +171,7 @@ constexpr const char* kExample =
 void checkArguments(const BrdfArguments& arguments)
 {
     for (const std::filesystem::path& file : arguments.exports) {
-        const std::string extension = file.extension().string();
+        const std::string extension = lowerExtension(file);
         if (extension != ".binary" && extension != ".ktx2" && extension != ".exr") {
             throw Error(file, "is no file that --export writes", ".binary (MERL), .ktx2 or .exr", Error::kUsage);
         }
@@ -187,9 +188,9 @@ void checkArguments(const BrdfArguments& arguments)
 void exportTo(const std::filesystem::path& file, const BrdfSource& source, const BrdfArguments& arguments)
 {
     std::string note;
-    if (file.extension() == ".binary") {
+    if (lowerExtension(file) == ".binary") {
         saveMerl(file, source.model, arguments.threads);
-    } else if (file.extension() == ".exr") {
+    } else if (lowerExtension(file) == ".exr") {
         saveBrdfTable(file, tableOfSource(source, arguments.threads));
     } else if (const size_t clamped = saveKtx2(file, tableOfSource(source, arguments.threads)); clamped > 0) {
         note = fmt::format(" ({} values beyond 16 bits clamped to 65504)", clamped);
@@ -215,7 +216,7 @@ void runScattered(const BrdfArguments& arguments)
 void runBrdf(const BrdfArguments& arguments)
 {
     checkArguments(arguments);
-    if (std::filesystem::path(arguments.source).extension() == ".brdf") {
+    if (lowerExtension(arguments.source) == ".brdf") {
         return runScattered(arguments);
     }
     const std::filesystem::path fits = fitsFolderFrom(arguments.fits);

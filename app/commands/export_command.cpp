@@ -18,6 +18,7 @@
 #include "app/commands/commands.h"
 #include "engine/files/error.h"
 #include "engine/files/parallel_for.h"
+#include "engine/files/text_files.h"
 #include "engine/files/whole_file.h"
 #include "engine/loading/scene_loading.h"
 #include "engine/rti/ptm_file.h"
@@ -164,7 +165,7 @@ Error usageError(const std::string& wrong, const std::string& expected)
 
 void requireExtension(const char* option, const fs::path& file, const std::vector<std::string>& extensions)
 {
-    if (!file.empty() && std::find(extensions.begin(), extensions.end(), file.extension()) == extensions.end()) {
+    if (!file.empty() && std::find(extensions.begin(), extensions.end(), lowerExtension(file)) == extensions.end()) {
         throw usageError(fmt::format("{} {} is no such file", option, file.string()),
                          fmt::format("NAME{}", fmt::join(extensions, " or NAME")));
     }
@@ -276,7 +277,7 @@ Image exportedAlbedo(const Surface& surface)
 // written as the text nacre:albedoScale. Answers that power of two, 1 for EXR.
 float saveAlbedo(const std::filesystem::path& file, const Image& albedo)
 {
-    if (file.extension() == ".exr") {
+    if (lowerExtension(file) == ".exr") {
         saveImage(file, albedo, PixelType::float32);
         return 1;
     }

@@ -10,6 +10,7 @@
 #include "app/report/debug_pictures.h"
 #include "app/report/progress_line.h"
 #include "engine/files/error.h"
+#include "engine/files/text_files.h"
 #include "evaluation/held_out/held_out_measures.h"
 
 namespace nacre {
@@ -25,7 +26,7 @@ struct NormalsArguments {
 // Refuses now what it would refuse after the work.
 void checkOutputs(const NormalsArguments& arguments)
 {
-    const std::filesystem::path extension = arguments.output.extension();
+    const std::string extension = lowerExtension(arguments.output);
     if (extension != ".exr" && extension != ".png") {
         throw Error(arguments.output, "is no normal map that normals writes", ".exr (float) or .png (16-bit)",
                     Error::kUsage);

@@ -8,6 +8,7 @@
 #include "app/materials/target_source.h"
 #include "engine/files/error.h"
 #include "engine/files/stopwatch.h"
+#include "engine/files/text_files.h"
 
 namespace nacre {
 
@@ -39,7 +40,7 @@ void print(const TargetReport& report)
 
 void runTarget(const TargetCommandArguments& arguments)
 {
-    if (arguments.output.extension() != ".nacre") {
+    if (lowerExtension(arguments.output) != ".nacre") {
         throw Error(arguments.output, "is no name for a surface", "-o NAME.nacre", Error::kUsage);
     }
     requireWholeFolder(arguments.output, arguments.force, kSurfaceDescription);

@@ -7,6 +7,7 @@
 #include "app/commands/commands.h"
 #include "app/materials/captured_photographs.h"
 #include "engine/files/error.h"
+#include "engine/files/text_files.h"
 #include "engine/loading/scene_loading.h"
 #include "engine/scene/picture_size.h"
 #include "engine/viewer/viewer.h"
@@ -28,7 +29,7 @@ struct ViewArguments {
 
 void check(const ViewArguments& arguments, const SceneDescription& scene)
 {
-    if (arguments.headless && arguments.output.extension() != ".png") {
+    if (arguments.headless && lowerExtension(arguments.output) != ".png") {
         throw Error("", "--headless has nowhere to draw to", "-o FILE.png with it", Error::kUsage);
     }
     if (!arguments.headless && !arguments.output.empty()) {

@@ -53,6 +53,7 @@ struct Surface {
     HorizonMap horizon;        // of the height, for cast shadows; empty: lights reach all that faces them. In no file
     std::vector<glm::vec3> places; // pixelPlaces, where they are known; in no file
     std::vector<CapturedLight> lights;
+    std::string transfer; // of the photographs: linear or srgb; empty: not known, or as they declare it themselves
     RadianceScale scale = RadianceScale::relative;
 };
 

@@ -94,6 +94,9 @@ nlohmann::json descriptionOf(const Surface& surface)
     if (!surface.height.values.empty()) {
         json["heights"] = "height.exr"; // "height" is the picture's
     }
+    if (!surface.transfer.empty()) {
+        json["transfer"] = surface.transfer;
+    }
     if (surface.castsShadows) {
         json["shadows"] = true;
     }
@@ -298,6 +301,9 @@ Surface surfaceOf(const JsonNode& root)
     }
     if (const auto heights = root.find("heights")) {
         surface.height = loadBeside(*heights, surface, 1);
+    }
+    if (const auto transfer = root.find("transfer")) {
+        surface.transfer = transfer->text();
     }
     if (const auto shadows = root.find("shadows")) {
         surface.castsShadows = shadows->truth();

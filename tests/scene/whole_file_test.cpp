@@ -78,7 +78,7 @@ TEST(Unfinished, IsRemovedBySignals)
             _exit(write(ready[1], &done, 1) == 1 ? (pause(), 0) : 1);
         }
         char done = 0;
-        EXPECT_EQ(read(ready[0], &done, 1), 1);
+        EXPECT_EQ(::read(ready[0], &done, 1), 1);
         EXPECT_TRUE(fs::exists(folder / "part/below/file"));
         kill(child, signal);
         int status = 0;
