@@ -1,10 +1,12 @@
 #include <algorithm>
 #include <cctype>
+#include <cerrno>
 #include <cstdio>
+#include <cstring>
 #include <exception>
 #include <filesystem>
 #include <new>
-#include <utility>
+#include <system_error>
 #include <vector>
 
 #include <CLI/CLI.hpp>
@@ -12,6 +14,7 @@
 
 #include "app/commands/commands.h"
 #include "engine/files/error.h"
+#include "engine/files/unfinished.h"
 
 namespace nacre {
 namespace {
@@ -159,6 +162,15 @@ std::string manPage(const CLI::App& app, const std::string& version)
            "3 for data that cannot be used; one line on standard error says why.\n";
 }
 
+// What was printed may still wait to be written.
+void requirePrinted()
+{
+    if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
+        throw Error("standard output", fmt::format("cannot be written: {}", std::strerror(errno)),
+                    "a file or pipe that takes what is printed");
+    }
+}
+
 constexpr int kInternalError = 70; // EX_SOFTWARE of sysexits.h
 
 // CLI11's message as one line of the program's own form, with the command whose help answers it.
@@ -195,27 +207,6 @@ void addTexts(CLI::App& app)
     print("--man-page", [&app] { return manPage(app, NACRE_VERSION); });
 }
 
-// In the order and under the headings of --help.
-void addCommands(CLI::App& app)
-{
-    using Adders = std::vector<void (*)(CLI::App&)>;
-    const std::pair<const char*, Adders> groups[] = {
-        {"Measure",
-         {addAcquireCommand, addNormalsCommand, addCalibrateCommand, addMaterialsCommand, addBrdfCommand,
-          addExportCommand}},
-        {"Render", {addRenderCommand, addTransferCommand, addTargetCommand}},
-        {"Look", {addViewCommand, addInfoCommand}},
-        {"Judge", {addEvaluateCommand, addChartCommand, addStressCommand, addBenchCommand, addCompareCommand}},
-        {"Make", {addSynthCommand, addDemoCommand}},
-    };
-    for (const auto& [heading, adders] : groups) {
-        for (const auto add : adders) {
-            add(app);
-            app.get_subcommands({}).back()->group(heading);
-        }
-    }
-}
-
 int runCommandLine(int argc, char** argv)
 {
     CLI::App app("Nacre measures materials from photographs under a moving light and relights them.");
@@ -239,13 +230,21 @@ int runCommandLine(int argc, char** argv)
 
 int main(int argc, char** argv)
 {
+    nacre::removeUnfinishedOnSignals();
     try {
-        return nacre::runCommandLine(argc, argv);
+        const int status = nacre::runCommandLine(argc, argv);
+        nacre::requirePrinted();
+        return status;
     } catch (const nacre::Error& e) {
         std::fprintf(stderr, "nacre: %s\n", e.what());
         return e.exitCode();
     } catch (const std::filesystem::filesystem_error& e) {
         std::fprintf(stderr, "nacre: %s: %s; a place that may be read and written\n", e.path1().c_str(),
+                     e.code().message().c_str());
+        return nacre::Error::kData;
+    } catch (const std::system_error& e) { // of fmt::print, where standard output is closed or full
+        std::fprintf(stderr,
+                     "nacre: standard output: cannot be written: %s; a file or pipe that takes what is printed\n",
                      e.code().message().c_str());
         return nacre::Error::kData;
     } catch (const std::bad_alloc&) {

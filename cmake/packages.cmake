@@ -12,6 +12,7 @@ find_package(glfw3 REQUIRED)
 find_package(X11) # tests of the window alone; skipped without
 find_package(PkgConfig REQUIRED)
 pkg_check_modules(matio REQUIRED IMPORTED_TARGET matio)
+pkg_check_modules(icu REQUIRED IMPORTED_TARGET icu-uc)
 pkg_check_modules(webp REQUIRED IMPORTED_TARGET libwebpmux libwebp)
 pkg_check_modules(webpdemux REQUIRED IMPORTED_TARGET libwebpdemux)
 

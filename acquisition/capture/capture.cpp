@@ -17,7 +17,8 @@ constexpr size_t kFewestPhotographs = 3; // a normal has two degrees of freedom,
 constexpr const char* kLayouts =
     "capture.json; filenames.txt with light_directions.txt (DiLiGenT); one .lp file here or above, beside its "
     "photographs "
-    "(RTI); or photographs NAME.0.*, NAME.1.*, ... with NAME.mask.* (University of Washington)";
+    "(RTI); photographs NAME.0.*, NAME.1.*, ... with NAME.mask.* (University of Washington); or any photographs with "
+    "--rig or --mirror-sphere";
 
 LayoutContents readLayout(const fs::path& folder, const CaptureOptions& options)
 {
@@ -33,6 +34,9 @@ LayoutContents readLayout(const fs::path& folder, const CaptureOptions& options)
     }
     if (!contents) {
         contents = readUwLayout(folder);
+    }
+    if (!contents && (!options.rig.empty() || !options.mirrorSphere.empty())) {
+        contents = readPlainFolder(folder);
     }
     if (!contents) {
         throw Error(folder, "holds no capture", kLayouts);
@@ -152,6 +156,8 @@ std::string describe(CaptureLayout layout)
         return "DiLiGenT";
     case CaptureLayout::rti:
         return "RTI";
+    case CaptureLayout::pictures:
+        return "pictures in order,";
     case CaptureLayout::json:
         break;
     }

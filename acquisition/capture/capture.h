@@ -67,7 +67,7 @@ struct SpherePhotographs {
 
 inline constexpr double kWidestView = 120; // degrees: what a pixel shows is far from a plane beyond it
 
-enum class CaptureLayout { uw, diligent, rti, json };
+enum class CaptureLayout { uw, diligent, rti, json, pictures };
 std::string describe(CaptureLayout layout);
 
 // N photographs of one still object from one still camera, on one common radiance scale. Pictures stay in their files.
@@ -91,6 +91,7 @@ struct Capture {
     std::optional<SpherePhotographs> diffuseSphere;
     TransferCurve curve = TransferCurve::linear;
     std::string curveSource;            // e.g. "assumed", "declared by 001.png", "chosen"
+    bool curveIsAssumed = false;        // neither files of 8 bits nor the user tell it
     float offset = 0;                   // subtracted from every value, spheres' too, before anything else is done to it
     std::string offsetSource;           // empty where none was asked for
     std::optional<Photograph> ambient;  // without the lights; subtracted from every photograph of the object

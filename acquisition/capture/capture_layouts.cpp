@@ -77,6 +77,18 @@ SpherePhotographs readSphereFolder(const fs::path& folder)
     return sphere;
 }
 
+// Pictures of any names in natural order, whose lights come from elsewhere.
+std::optional<LayoutContents> readPlainFolder(const fs::path& folder)
+{
+    LayoutContents contents;
+    contents.capture.layout = CaptureLayout::pictures;
+    contents.listing = folder;
+    for (const fs::path& file : picturesIn(folder)) {
+        isNamedMask(file) ? contents.masks.push_back(file) : contents.capture.photographs.push_back(photographOf(file));
+    }
+    return contents.capture.photographs.empty() ? std::nullopt : std::optional(contents);
+}
+
 // Shi et al., A Benchmark Dataset and Evaluation for Non-Lambertian and Uncalibrated Photometric Stereo (DiLiGenT),
 // 2016: filenames.txt lists the photographs, light_directions.txt their lights in the camera frame (x right, y up,
 // z to the camera), light_intensities.txt the lights' RGB irradiances.
@@ -141,6 +153,10 @@ using PicturePool = std::vector<std::vector<fs::path>>;
 
 void gatherPictures(const fs::path& folder, size_t depth, PicturePool& pool)
 {
+    std::error_code unreadable; // below the capture's own folder, of which picturesIn tells, nobody's business
+    if (fs::directory_iterator(folder, unreadable); unreadable && depth > 0) {
+        return;
+    }
     pool.resize(std::max(pool.size(), depth + 1));
     const std::vector<fs::path> here = picturesIn(folder);
     pool[depth].insert(pool[depth].end(), here.begin(), here.end());
@@ -165,20 +181,34 @@ std::string withSlashes(std::string name)
     return name;
 }
 
-// The one picture that `agrees` in the highest folder that has any; empty where none does.
-template <typename Agrees> fs::path findInPool(const PicturePool& pool, const fs::path& lp, Agrees agrees)
+// How many folders right above the files have the same names.
+size_t sharedFolders(const fs::path& a, const fs::path& b)
+{
+    const fs::path above = a.parent_path(), other = b.parent_path();
+    const bool isSame =
+        !above.filename().empty() && lowerCase(above.filename().string()) == lowerCase(other.filename().string());
+    return isSame ? 1 + sharedFolders(above, other) : 0;
+}
+
+// The one picture that `agrees` in the highest folder that has any, and of several the one in folders that are named
+// as those of `listed`; empty where none does.
+template <typename Agrees>
+fs::path findInPool(const PicturePool& pool, const fs::path& lp, const fs::path& listed, Agrees agrees)
 {
     for (const std::vector<fs::path>& pictures : pool) {
-        const auto first = std::find_if(pictures.begin(), pictures.end(), agrees);
-        if (first == pictures.end()) {
-            continue;
-        }
-        const auto second = std::find_if(first + 1, pictures.end(), agrees);
-        if (second != pictures.end()) {
-            throw Error(lp, fmt::format("lists a photograph that may be {} or {}", first->string(), second->string()),
+        std::vector<fs::path> found;
+        std::copy_if(pictures.begin(), pictures.end(), std::back_inserter(found), agrees);
+        std::stable_sort(found.begin(), found.end(), [&](const fs::path& a, const fs::path& b) {
+            return sharedFolders(a, listed) > sharedFolders(b, listed);
+        });
+        if (found.size() > 1 && sharedFolders(found[0], listed) == sharedFolders(found[1], listed)) {
+            throw Error(lp,
+                        fmt::format("lists a photograph that may be {} or {}", found[0].string(), found[1].string()),
                         "one photograph of that name");
         }
-        return *first;
+        if (!found.empty()) {
+            return found[0];
+        }
     }
     return {};
 }
@@ -193,9 +223,10 @@ fs::path findPhotograph(const PicturePool& pool, const fs::path& lp, const fs::p
     }
     using Part = std::string (*)(const fs::path&);
     for (const Part part : {Part([](const fs::path& file) { return file.filename().string(); }),
-                            Part([](const fs::path& file) { return lowerCase(file.filename().string()); }),
-                            Part([](const fs::path& file) { return lowerCase(file.stem().string()); })}) {
-        const fs::path found = findInPool(pool, lp, [&](const fs::path& file) { return part(file) == part(name); });
+                            Part([](const fs::path& file) { return comparable(file.filename().string()); }),
+                            Part([](const fs::path& file) { return comparable(file.stem().string()); })}) {
+        const fs::path found =
+            findInPool(pool, lp, name, [&](const fs::path& file) { return part(file) == part(name); });
         if (!found.empty()) {
             return found;
         }
@@ -208,7 +239,8 @@ std::vector<fs::path> lpFilesIn(const fs::path& folder)
     std::set<fs::path> files;
     std::error_code ignored;
     for (const fs::directory_entry& entry : fs::directory_iterator(folder, ignored)) {
-        if (entry.is_regular_file() && lowerCase(entry.path().extension().string()) == ".lp") {
+        const bool hidden = entry.path().filename().string().starts_with('.');
+        if (!hidden && entry.is_regular_file() && lowerExtension(entry.path()) == ".lp") {
             files.insert(entry.path());
         }
     }

@@ -27,6 +27,7 @@ std::optional<LayoutContents> readUwLayout(const std::filesystem::path& folder);
 std::optional<LayoutContents> readRtiLayout(const std::filesystem::path& folder, const std::filesystem::path& rig);
 
 // A folder of a sphere's photographs with its mask: UW names, or pictures of any names in natural order.
+std::optional<LayoutContents> readPlainFolder(const std::filesystem::path& folder);
 SpherePhotographs readSphereFolder(const std::filesystem::path& folder);
 
 // A photograph of one file and unknown exposure.

@@ -61,7 +61,7 @@ void dropSkipped(Capture& capture)
 std::string comparedName(std::string name)
 {
     std::replace(name.begin(), name.end(), '\\', '/');
-    return lowerCase(fs::path(name).stem().string());
+    return comparable(fs::path(name).stem().string());
 }
 
 std::optional<SphereInPicture> sphereInPicture(const std::string& name, const fs::path& specification)

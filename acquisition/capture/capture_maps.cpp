@@ -33,6 +33,25 @@ template <class Visit> void forEachBoxPixel(const Capture& capture, Visit&& visi
 
 } // namespace
 
+namespace {
+
+// An alpha channel that has both is a mask, whatever its colours are; empty where there is none.
+std::vector<uint8_t> alphaMask(const std::filesystem::path& file, int channels)
+{
+    if (channels != 2 && channels != 4) {
+        return {};
+    }
+    const Image image = loadImage(file);
+    std::vector<uint8_t> mask;
+    for (size_t i = static_cast<size_t>(channels) - 1; i < image.values.size(); i += channels) {
+        mask.push_back(image.values[i] > 0.5f ? 1 : 0);
+    }
+    const auto [least, most] = std::minmax_element(mask.begin(), mask.end());
+    return *least == *most ? std::vector<uint8_t>() : mask;
+}
+
+} // namespace
+
 std::vector<uint8_t> loadMask(const fs::path& file, int width, int height)
 {
     // Masks hold shape, not light: no curve. By rows, since a mask is as large as its photographs.
@@ -42,8 +61,11 @@ std::vector<uint8_t> loadMask(const fs::path& file, int width, int height)
         throw Error(file, fmt::format("is {} x {}", header.width, header.height),
                     fmt::format("{} x {} as the photographs", width, height));
     }
+    std::vector<uint8_t> mask = alphaMask(file, header.channels);
+    if (!mask.empty()) {
+        return mask;
+    }
     const int channels = rows.channels();
-    std::vector<uint8_t> mask;
     mask.reserve(static_cast<size_t>(header.width) * header.height);
     std::vector<float> values;
     for (int y = 0; y < header.height; y += kMaskRowsAtOnce) {

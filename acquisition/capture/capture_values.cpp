@@ -50,28 +50,32 @@ void requireOneSize(std::span<const ReadHeader> headers)
     }
 }
 
-const char* describeCurve(const ImageHeader& header)
+std::string describeCurve(const ImageHeader& header)
 {
     if (!header.curveIsDeclared) {
         return "declares no transfer curve";
     }
-    return header.declaredCurve == TransferCurve::srgb ? "declares sRGB" : "declares linear values";
+    return "declares " + (header.curve == TransferCurve::linear ? "linear values" : header.curve.name);
 }
 
-// A header that declares nothing stands for linear values.
+// Of spheres, those that declare nothing follow the object's.
 void takeDeclaredCurve(Capture& capture, std::span<const ReadHeader> headers)
 {
     const ImageHeader& first = headers[0].header;
     const std::string firstName = headers[0].exposure->file.filename().string();
     for (const auto& [exposure, header] : headers) {
-        if (header.declaredCurve != first.declaredCurve) {
+        if (!(header.curve == first.curve) && (header.curveIsDeclared || first.curveIsDeclared)) {
             throw Error(exposure->file,
                         fmt::format("{}, while {} {}", describeCurve(header), firstName, describeCurve(first)),
-                        "one curve for all photographs, declared or chosen");
+                        "one curve for all photographs, declared or chosen (--transfer)");
         }
     }
-    capture.curve = first.declaredCurve;
-    capture.curveSource = first.curveIsDeclared ? "declared by " + firstName : "assumed";
+    capture.curve = first.curve;
+    capture.curveIsAssumed = !first.curveIsDeclared && first.pixelType == "uint8";
+    capture.curveSource = first.curveIsDeclared ? "declared by " + firstName : "assumed: the files declare none";
+    if (first.hasOtherPrimaries) {
+        capture.curveSource += "; its primaries are not those of sRGB, colours stay its own";
+    }
 }
 
 // Exposure times from EXIF, where they differ, relative to the first photograph's.

@@ -115,6 +115,9 @@ Surface surfaceOf(const Capture& capture, const PreparedCapture& prepared, Norma
     surface.normals = std::move(normals);
     surface.materials = std::move(materials);
     surface.albedo = std::move(albedo);
+    surface.transfer = capture.curve == TransferCurve::srgb     ? "srgb"
+                       : capture.curve == TransferCurve::linear ? "linear"
+                                                                : "";
     surface.scale = rig.absolute ? RadianceScale::absolute : RadianceScale::relative;
     for (size_t i = 0; i < lights.size(); ++i) {
         surface.lights.push_back({capture.photographs[prepared.given[i]].name, lights[i]});

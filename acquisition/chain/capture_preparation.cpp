@@ -57,8 +57,8 @@ void keepReconciled(PreparedCapture& prepared)
 } // namespace
 
 // All lights are calibrated before any is chosen, so that irradiances do not depend on the choice.
-PreparedCapture prepareCapture(const Capture& capture, const AcquireOptions& options, StageClock& clock,
-                               const Progress& progress)
+std::pair<PreparedCapture, Observations> reconcileCapture(const Capture& capture, const AcquireOptions& options,
+                                                          StageClock& clock, const Progress& progress)
 {
     progress("lights", 0);
     clock.enter("lights");
@@ -89,10 +89,17 @@ PreparedCapture prepareCapture(const Capture& capture, const AcquireOptions& opt
     if (prepared.rig.lights.size() != seen.lightCount) {
         seen = selectLights(seen, prepared.reconciled.agreeing);
     }
+    return {std::move(prepared), std::move(seen)};
+}
+
+PreparedCapture prepareCapture(const Capture& capture, const AcquireOptions& options, StageClock& clock,
+                               const Progress& progress)
+{
+    auto [prepared, seen] = reconcileCapture(capture, options, clock, progress);
     checkSample(options, prepared);
     approachSurface(capture, seen, options, clock, progress, prepared);
     prepared.lambertianMisfit = lambertianMisfit(prepared.reconciled.sample.seen, prepared.reconciled.sample.lights);
-    return prepared;
+    return std::move(prepared);
 }
 
 NormalEstimate estimateCaptureNormals(const Capture& capture, const AcquireOptions& options, const Progress& progress)

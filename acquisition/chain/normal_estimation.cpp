@@ -1,4 +1,5 @@
 #include "acquisition/chain/normal_estimation.h"
+#include "acquisition/chain/curve_choice.h"
 
 #include <algorithm>
 #include <span>
@@ -42,6 +43,7 @@ NormalEstimate startEstimate(const PreparedCapture& prepared, const ChosenMethod
     append(estimate.report.findings, prepared.placed);
     append(estimate.report.findings, prepared.checked.findings);
     append(estimate.report.findings, chosen.findings);
+    nameAssumedCurve(prepared.blocks.capture(), estimate.report.findings);
     estimate.normals = NormalMap(prepared.blocks.capture().width, prepared.blocks.capture().height);
     estimate.verdicts.resize(prepared.rig.lights.size());
     return estimate;

@@ -150,6 +150,19 @@ double unexplainedShare(const NormalBlock& block, const std::vector<Light>& ligh
 
 } // namespace
 
+double lambertScatter(const Observations& sample, const std::vector<Light>& lights, const NormalOptions& options)
+{
+    const Observations few = thinned(sample);
+    if (few.pixels.size() < kFewestCheckedPixels || lights.size() < kFewestCheckedLights) {
+        return 0;
+    }
+    NormalOptions quick = options;
+    quick.triples = std::min(options.triples, kCheckTriples);
+    const Intensities intensities = intensitiesOf(few, lights);
+    const NormalBlock consensus = makeConsensusEstimator(lights, quick)(intensities);
+    return matteScatter(intensities, consensus, lights, matteObservations(intensities, consensus, lights));
+}
+
 CheckedSample checkCapture(const Observations& sample, const std::vector<Light>& lights, const NormalOptions& options)
 {
     CheckedSample checked;

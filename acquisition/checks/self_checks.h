@@ -22,6 +22,10 @@ struct CheckedSample {
     std::vector<Finding> findings;
 };
 
+// How far a few hundred pixels of an object are from Lambert's law by consensus, see matte_scatter.h; 0 where there are
+// too few to tell.
+double lambertScatter(const Observations& sample, const std::vector<Light>& lights, const NormalOptions& options);
+
 // Each finding names what is likely wrong with the photographs or lights, and what to do; docs/limitations.md lists
 // them.
 CheckedSample checkCapture(const Observations& sample, const std::vector<Light>& lights, const NormalOptions& options);

@@ -18,6 +18,8 @@ constexpr double kWidths[] = {20, 10, 5, 2.5};
 // Of the scatter that is left. Gloss, noise and lights that err leave curves more than 0.7 and distances more than
 // 0.95; published photographs (docs/limitations.md) as much.
 constexpr double kTellingCurve = 0.65;
+// What is left where the curve was the cause: that of photographs that are known to be good.
+constexpr double kLambertian = 0.015;
 constexpr double kTellingDistance = 0.93;
 // Photographs that follow Lambert's law as well as this have nothing to be undone.
 constexpr double kLeastScatter = 0.004;
@@ -42,6 +44,11 @@ double scatterOfPower(const Observations& seen, const std::vector<Light>& lights
 }
 
 } // namespace
+
+bool tellsCurve(double scatter, double scatterAsTaken)
+{
+    return scatterAsTaken > kLeastScatter && scatter < kTellingCurve * scatterAsTaken && scatter < kLambertian;
+}
 
 double scatterAtDistance(const Observations& seen, const std::vector<Light>& lights, const NearField& near,
                          const Image& height, const NormalEstimator& consensus, const MatteChoice& matte)
@@ -97,8 +104,9 @@ std::optional<CaptureDefect> findDefect(const Observations& seen, const std::vec
     });
     std::optional<CaptureDefect> best;
     for (const CaptureDefect& trial : trials) {
-        const double telling = trial.kind == CaptureDefect::Kind::nearLights ? kTellingDistance : kTellingCurve;
-        if (trial.scatter < telling * scatter && (!best || trial.scatter < best->scatter)) {
+        const bool tells = trial.kind == CaptureDefect::Kind::nearLights ? trial.scatter < kTellingDistance * scatter
+                                                                         : tellsCurve(trial.scatter, scatter);
+        if (tells && (!best || trial.scatter < best->scatter)) {
             best = trial;
         }
     }

@@ -21,6 +21,10 @@ struct CaptureDefect {
 double scatterAtDistance(const Observations& seen, const std::vector<Light>& lights, const NearField& near,
                          const Image& height, const NormalEstimator& consensus, const MatteChoice& matte);
 
+// Whether the scatter that another transfer curve leaves is so much less that it has to be the right one. What even
+// then is far from Lambert's law tells nothing.
+bool tellsCurve(double scatter, double scatterAsTaken);
+
 // Tries transfer curves (powers of the photographs' values) and finite distances of the lights, on a few hundred pixels
 // of the object, and answers what explains best, if that is far better than taking the capture as it is. `width`: of
 // the grid that seen.pixels count in; 0 where it is not known. `scatter`: of the capture as it is.

@@ -257,7 +257,7 @@ void requireInside(const SphereInPicture& sphere, const Capture& capture)
 }
 
 // Grey values of the crop.
-std::vector<float> cropOf(const SphereInPicture& sphere, const fs::path& file, TransferCurve curve)
+std::vector<float> cropOf(const SphereInPicture& sphere, const fs::path& file, const TransferCurve& curve)
 {
     ImageRows rows(file, curve);
     const int channels = rows.channels();

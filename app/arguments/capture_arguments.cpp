@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "acquisition/chain/curve_choice.h"
 #include "engine/files/error.h"
 #include "engine/files/text_files.h"
 #include "engine/materials/material_specification.h"
@@ -87,6 +88,14 @@ LightChoice lightChoiceOf(const std::optional<int>& given)
 
 } // namespace
 
+TransferCurve curveFromName(const std::string& name)
+{
+    if (name != "linear" && name != "srgb") {
+        throw Error("", fmt::format("--transfer {} is no curve", name), "linear or srgb", Error::kUsage);
+    }
+    return name == "srgb" ? TransferCurve::srgb : TransferCurve::linear;
+}
+
 void CalibrationArguments::addTo(CLI::App& command)
 {
     command.add_option("CAPTURE", folder, "Folder of photographs")->required();
@@ -132,7 +141,8 @@ void CalibrationArguments::addTo(CLI::App& command)
         ->group(kPhotographs);
     command
         .add_option("--transfer", transfer,
-                    "Transfer curve of the photographs (default: as the files declare, else linear)")
+                    "Transfer curve of the photographs (default: as the files declare; else sRGB for JPEG and linear "
+                    "for others, unless the photographs of 8 bits tell)")
         ->option_text("linear|srgb")
         ->group(kPhotographs);
     command
@@ -195,19 +205,16 @@ void CaptureArguments::addTo(CLI::App& command)
         ->delimiter(',')
         ->option_text("NAME[,NAME]")
         ->group(kNormals);
-    command.add_option("--json", json, "File for the summary as JSON")->option_text("FILE")->group(kRunning);
+    command.add_option("--json", json, "File for the summary as JSON")->option_text("OUT.json")->group(kRunning);
     command.add_option("--debug-dir", debugFolder, "Folder for a picture of every stage's result")
-        ->option_text("DIR")
+        ->option_text("OUT")
         ->group(kRunning);
 }
 
 Capture CalibrationArguments::load()
 {
-    if (!transfer.empty() && transfer != "linear" && transfer != "srgb") {
-        throw Error("", fmt::format("--transfer {} is no curve", transfer), "linear or srgb", Error::kUsage);
-    }
     if (!transfer.empty()) {
-        capture.transfer = transfer == "srgb" ? TransferCurve::srgb : TransferCurve::linear;
+        capture.transfer = curveFromName(transfer);
     }
     if (!offset.empty()) {
         capture.offset = offsetChoiceOf(offset);
@@ -225,7 +232,10 @@ Capture CalibrationArguments::load()
         throw Error(folder, "says nothing of its lights",
                     "light directions, photographs of a mirror sphere (--mirror-sphere DIR), or a rig (--rig FILE)");
     }
-    return loaded;
+    AcquireOptions options;
+    options.calibration = calibrationOptions();
+    options.setThreads(threads);
+    return withToldCurve(loaded, options);
 }
 
 CalibrationOptions CalibrationArguments::calibrationOptions() const

@@ -9,6 +9,9 @@
 
 namespace nacre {
 
+// Of --transfer; throws a usage Error.
+TransferCurve curveFromName(const std::string& name);
+
 // Which capture, and what is known of its lights: all that `calibrate` needs, and the first part of CaptureArguments.
 struct CalibrationArguments {
     std::filesystem::path folder;

@@ -1,13 +1,20 @@
 #include "app/arguments/destinations.h"
 
+#include <algorithm>
+#include <cstdio>
+
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include "engine/files/error.h"
+#include "engine/files/whole_file.h"
 
 namespace nacre {
 namespace fs = std::filesystem;
 
 namespace {
+
+constexpr const char* kFreeName = "a new name, or --force to replace it";
 
 void requireWritable(const fs::path& output, const fs::path& folder)
 {
@@ -16,29 +23,67 @@ void requireWritable(const fs::path& output, const fs::path& folder)
     }
 }
 
-} // namespace
-
-void requireDestination(const fs::path& output, bool replace)
+void requireFree(const fs::path& output, bool replace)
 {
-    if (fs::exists(output) && !replace) {
-        throw Error(output, "exists already", "a new name, or --force to replace it");
+    if (!replace && fs::exists(output)) {
+        throw Error(output, "exists already", kFreeName);
     }
-    WholeOutput(output, replace);
+    WholeOutput(output, true);
     requireWritable(output, (output.has_filename() ? output : output.parent_path()).parent_path());
 }
 
-void requireSummaryDestination(const fs::path& file)
+bool holds(const fs::path& folder, const std::string& mark)
 {
-    if (file.empty()) {
+    const fs::directory_iterator entries(folder);
+    return std::any_of(begin(entries), end(entries), [&](const fs::directory_entry& entry) {
+        return entry.path().filename().native().starts_with(mark);
+    });
+}
+
+bool isStandardOutput(const fs::path& file)
+{
+    return file == "-" || file == "/dev/stdout" || file == "/dev/fd/1" || file == "/proc/self/fd/1";
+}
+
+// Standard output as the program was given it, once what is printed goes to standard error.
+int summaryDescriptor = -1;
+
+void printToStandardError()
+{
+    std::fflush(stdout);
+    summaryDescriptor = dup(STDOUT_FILENO);
+    dup2(STDERR_FILENO, STDOUT_FILENO);
+}
+
+} // namespace
+
+void requireFile(const fs::path& file, bool replace)
+{
+    if (file.empty() || isStream(file)) {
         return;
     }
     if (fs::is_directory(file)) {
-        throw Error(file, "is a folder", "the name of a file for the summary");
+        throw Error(file, "is a folder", "the name of a file");
     }
-    requireDestination(file, true);
+    requireFree(file, replace);
 }
 
-void requireFolderDestination(const fs::path& folder)
+void requireWholeFolder(const fs::path& folder, bool replace, const std::string& mark)
+{
+    if (folder.empty()) {
+        return;
+    }
+    requireFree(folder, replace);
+    if (fs::exists(folder) && !fs::is_directory(folder)) {
+        throw Error(folder, "is no folder", "a new name: --force replaces folders by folders alone");
+    }
+    if (fs::exists(folder) && !fs::is_empty(folder) && !holds(folder, mark)) {
+        throw Error(folder, fmt::format("holds no {}", mark),
+                    "a new name: --force replaces what the same command wrote, and nothing else");
+    }
+}
+
+void requirePictureFolder(const fs::path& folder, bool replace)
 {
     fs::path existing = folder;
     while (!existing.empty() && !fs::exists(existing)) {
@@ -50,7 +95,25 @@ void requireFolderDestination(const fs::path& folder)
     }
     if (!folder.empty()) {
         requireWritable(folder, existing);
+        if (existing == folder && !fs::is_empty(folder) && !replace) {
+            throw Error(folder, "exists already and is not empty",
+                        "a new name, or --force to replace the files in it that have the same names");
+        }
     }
+}
+
+void requireSummary(const fs::path& file, bool replace)
+{
+    if (isStandardOutput(file)) {
+        printToStandardError();
+    } else {
+        requireFile(file, replace);
+    }
+}
+
+void writeSummaryText(const fs::path& file, const std::string& text)
+{
+    writeTextFile(isStandardOutput(file) ? fs::path("/dev/fd") / std::to_string(summaryDescriptor) : file, text);
 }
 
 } // namespace nacre

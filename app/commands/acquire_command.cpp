@@ -13,6 +13,7 @@
 #include "app/report/progress_line.h"
 #include "engine/files/error.h"
 #include "engine/files/stopwatch.h"
+#include "engine/files/text_files.h"
 
 namespace nacre {
 
@@ -62,13 +63,14 @@ AcquireOptions optionsOf(const AcquireArguments& arguments)
 // Refuses now what it would refuse after the work.
 void checkOutputs(const AcquireArguments& arguments)
 {
-    if (arguments.output.extension() != ".nacre") {
+    if (lowerExtension(arguments.output) != ".nacre") {
         throw Error(arguments.output, "is no name for a surface", "-o NAME.nacre", Error::kUsage);
     }
-    requireDestination(arguments.output, arguments.common.force);
-    requireSummaryDestination(arguments.common.json);
-    requireFolderDestination(arguments.common.debugFolder);
-    requireReportDestination(arguments.report, arguments.common.force);
+    const bool force = arguments.common.force;
+    requireWholeFolder(arguments.output, force, kSurfaceDescription);
+    requireSummary(arguments.common.json, force);
+    requirePictureFolder(arguments.common.debugFolder, force);
+    requirePictureFolder(arguments.report, force);
 }
 
 // The summary and the pictures that were asked for.
@@ -122,7 +124,9 @@ void addAcquireCommand(CLI::App& app)
     CLI::App* command =
         app.add_subcommand("acquire", "Photographs under a moving light to normals and a measured BRDF");
     arguments->common.addTo(*command);
-    command->add_option("-o,--output", arguments->output, "Surface to write, NAME.nacre")->required();
+    command->add_option("-o,--output", arguments->output, "Surface to write, NAME.nacre")
+        ->option_text("OUT.nacre")
+        ->required();
     command
         ->add_option("--segment", arguments->segment,
                      "Materials: picture with a value or colour for each, auto to find them, auto:N to find N "
@@ -144,9 +148,11 @@ void addAcquireCommand(CLI::App& app)
                      "Size of the table in texels, X,Y,Z (default: from the captured range)")
         ->delimiter(',')
         ->group("BRDF");
-    command->add_option(
-        "--report", arguments->report,
-        "Folder for report.html, a page of pictures and figures; acquires once more with photographs held out");
+    command
+        ->add_option(
+            "--report", arguments->report,
+            "Folder for report.html, a page of pictures and figures; acquires once more with photographs held out")
+        ->option_text("OUT");
     command->footer("Example:\n  nacre acquire horse --mirror-sphere chrome --diffuse-sphere gray -o horse.nacre");
     command->callback([arguments] { runAcquire(*arguments); });
 }

@@ -33,6 +33,7 @@ struct BenchArguments {
     bool bake = false;    // instead of frames
     std::string device;
     std::filesystem::path json;
+    bool force = false;
 };
 
 double milliseconds(const std::function<void()>& call)
@@ -230,7 +231,7 @@ nlohmann::ordered_json runBakeBench()
 
 void runBench(const BenchArguments& arguments)
 {
-    requireSummaryDestination(arguments.json);
+    requireSummary(arguments.json, arguments.force);
     if (arguments.repeats < 1 || arguments.repeats > 1000) {
         throw Error("", fmt::format("--repeats {} is out of range", arguments.repeats), "1 to 1000", Error::kUsage);
     }
@@ -275,7 +276,8 @@ void addBenchCommand(CLI::App& app)
                       "Table from a million samples, against the search for their neighbours alone, instead of frames");
     command->add_option("--device", arguments->device,
                         "Vulkan device: number or part of its name in nacre info (default: the first)");
-    command->add_option("--json", arguments->json, "File for the figures as JSON");
+    command->add_option("--json", arguments->json, "File for the figures as JSON")->option_text("OUT.json");
+    command->add_flag("--force", arguments->force, "Replacement of an existing output");
     command->footer("Example:\n  nacre bench --size 1920x1080 --json bench.json");
     command->callback([arguments] { runBench(*arguments); });
 }

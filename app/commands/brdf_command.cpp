@@ -17,6 +17,7 @@
 #include "engine/files/error.h"
 #include "engine/files/measures.h"
 #include "engine/files/parallel_for.h"
+#include "engine/files/text_files.h"
 #include "engine/files/whole_file.h"
 #include "engine/materials/ktx2_file.h"
 #include "engine/materials/material_specification.h"
@@ -140,13 +141,10 @@ Image ballsSheet(const BrdfModel& model, int threads)
 // slices.png: f over thetaH (right, 0 to 90 degrees, square root) and thetaD (down) for several phiD, on a logarithmic
 // scale from 1e-4 of the peak; grey where light or view is below the horizon, hatched where f is uncertain
 // (coverage.h). sphere.png: a ball of the material under lights at several angles from the view, all exposed alike, and
-// the same three stops brighter. `folder` is made; pictures of these names in it are refused without `replace`.
-void saveBrdfPictures(const std::filesystem::path& folder, const BrdfSource& source, bool replace, int threads)
+// the same three stops brighter. `folder` is made.
+void saveBrdfPictures(const std::filesystem::path& folder, const BrdfSource& source, int threads)
 {
     std::filesystem::create_directories(folder);
-    for (const char* name : kPictures) {
-        requireDestination(folder / name, replace);
-    }
     saveImage(folder / kPictures[0], slicesSheet(source.model, threads), PixelType::uint8);
     saveImage(folder / kPictures[1], ballsSheet(source.model, threads), PixelType::uint8);
 }
@@ -176,14 +174,14 @@ constexpr const char* kExample =
 void checkArguments(const BrdfArguments& arguments)
 {
     for (const std::filesystem::path& file : arguments.exports) {
-        const std::string extension = file.extension().string();
+        const std::string extension = lowerExtension(file);
         if (extension != ".binary" && extension != ".ktx2" && extension != ".exr") {
             throw Error(file, "is no file that --export writes", ".binary (MERL), .ktx2 or .exr", Error::kUsage);
         }
-        requireDestination(file, arguments.force);
+        requireFile(file, arguments.force);
     }
-    requireSummaryDestination(arguments.json);
-    requireFolderDestination(arguments.pictures);
+    requireSummary(arguments.json, arguments.force);
+    requirePictureFolder(arguments.pictures, arguments.force);
     if (arguments.threads < 0) {
         throw Error("", fmt::format("--threads {} is not possible", arguments.threads), "1 or more, or 0 for all",
                     Error::kUsage);
@@ -193,9 +191,9 @@ void checkArguments(const BrdfArguments& arguments)
 void exportTo(const std::filesystem::path& file, const BrdfSource& source, const BrdfArguments& arguments)
 {
     std::string note;
-    if (file.extension() == ".binary") {
+    if (lowerExtension(file) == ".binary") {
         saveMerl(file, source.model, arguments.threads);
-    } else if (file.extension() == ".exr") {
+    } else if (lowerExtension(file) == ".exr") {
         saveBrdfTable(file, tableOfSource(source, arguments.threads));
     } else if (const size_t clamped = saveKtx2(file, tableOfSource(source, arguments.threads)); clamped > 0) {
         note = fmt::format(" ({} values beyond 16 bits clamped to 65504)", clamped);
@@ -221,7 +219,7 @@ void runScattered(const BrdfArguments& arguments)
 void runBrdf(const BrdfArguments& arguments)
 {
     checkArguments(arguments);
-    if (std::filesystem::path(arguments.source).extension() == ".brdf") {
+    if (lowerExtension(arguments.source) == ".brdf") {
         return runScattered(arguments);
     }
     const std::filesystem::path fits = fitsFolderFrom(arguments.fits);
@@ -241,7 +239,7 @@ void runBrdf(const BrdfArguments& arguments)
         print(report);
     }
     if (!arguments.pictures.empty()) {
-        saveBrdfPictures(arguments.pictures, report.source, arguments.force, arguments.threads);
+        saveBrdfPictures(arguments.pictures, report.source, arguments.threads);
     }
     for (const std::filesystem::path& file : arguments.exports) {
         exportTo(file, report.source, arguments);
@@ -259,13 +257,14 @@ void addBrdfCommand(CLI::App& app)
     command->add_option("--against", arguments->against, "Material to compare with, like MATERIAL");
     command->add_option("--fits", arguments->fits,
                         "Folder of merl_abc_params.csv and merl_sgd_params.csv (default: $NACRE_FITS_DIR)");
-    command->add_option("-o,--output", arguments->pictures, "Folder for slices.png and sphere.png");
+    command->add_option("-o,--output", arguments->pictures, "Folder for slices.png and sphere.png")->option_text("OUT");
     command
         ->add_option(
             "--export", arguments->exports,
             "File to write: .binary (MERL), .ktx2 (3D texture, 16-bit floats) or .exr (Nacre's table). Repeatable")
         ->allow_extra_args(false);
-    command->add_option("--json", arguments->json, "File for the figures as JSON");
+    command->add_option("--json", arguments->json, "File for the figures as JSON")
+        ->option_text("OUT.binary|OUT.ktx2|OUT.exr");
     command->add_option("--threads", arguments->threads, "Number of threads (default: all)");
     command->add_flag("--force", arguments->force, "Replacement of existing outputs");
     command->add_flag("--quiet", arguments->quiet, "No messages");

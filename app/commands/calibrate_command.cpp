@@ -33,7 +33,7 @@ void checkOutput(const std::filesystem::path& output, bool force)
         throw Error(output, "names no file of lights", "NAME.json (directions and irradiances) or NAME.lp (directions)",
                     Error::kUsage);
     }
-    requireDestination(output, force);
+    requireFile(output, force);
 }
 
 LightFile lightFileOf(const Capture& capture, const Rig& rig)
@@ -90,6 +90,7 @@ void addCalibrateCommand(CLI::App& app)
     command
         ->add_option("-o,--output", arguments->output,
                      "File to write: NAME.json (directions and irradiances) or NAME.lp (directions alone)")
+        ->option_text("OUT.json|OUT.lp")
         ->required();
     command->footer("Example:\n  nacre calibrate gray --mirror-sphere chrome --diffuse-sphere gray -o lights.json\n"
                     "  nacre acquire horse --rig lights.json -o horse.nacre");

@@ -118,6 +118,7 @@ void ChartArguments::addTo(CLI::App& command)
             "-o,--output", output,
             "Folder to write: report.html, normals.csv, brdf.csv, rendering.csv, charts as .svg (by gnuplot, where "
             "installed) and the scripts .gp that draw them")
+        ->option_text("OUT")
         ->required();
     command.add_option("--mirror-sphere", capture.mirrorSphere,
                        "Folder of a mirror sphere's photographs, for all captures");
@@ -163,11 +164,7 @@ void stopOnInterrupt()
 // Refuses now what it would refuse after the work.
 void checkOutput(const ChartArguments& arguments)
 {
-    requireDestination(arguments.output, arguments.force);
-    if (fs::exists(arguments.output) && !fs::exists(arguments.output / kReport)) {
-        throw Error(arguments.output, "exists and holds no " + std::string(kReport),
-                    "a new name; --force replaces charts alone");
-    }
+    requireWholeFolder(arguments.output, arguments.force, kReport);
 }
 
 // All are checked before the first is measured. Rows are told apart by their captures' names.

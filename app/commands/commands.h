@@ -23,4 +23,7 @@ void addChartCommand(CLI::App& app);
 void addDemoCommand(CLI::App& app);
 void addBenchCommand(CLI::App& app);
 
+// All of them, in the order and under the headings of --help.
+void addCommands(CLI::App& app);
+
 } // namespace nacre

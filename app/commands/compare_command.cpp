@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "acquisition/capture/capture_maps.h"
+#include "app/arguments/capture_arguments.h"
 #include "app/arguments/destinations.h"
 #include "app/commands/commands.h"
 #include "engine/files/error.h"
@@ -23,6 +24,8 @@ struct CompareArguments {
     std::filesystem::path reference;
     std::filesystem::path mask;
     std::filesystem::path json;
+    std::string transfer;
+    bool force = false;
     double peak = 0;
     double atLeast = 0;
     int codeTolerance = kCodeTolerance;
@@ -36,10 +39,12 @@ struct Comparison {
     CodeDifference codes;
 };
 
-Image loadForComparison(const std::filesystem::path& file)
+// A choice is for what the file does not declare: a render that is compared with a photograph says that it is linear.
+Image loadForComparison(const std::filesystem::path& file, const std::string& transfer)
 {
     const ImageHeader header = readImageHeader(file);
-    return loadPhotograph(file, header.curveIsDeclared ? header.declaredCurve : TransferCurve::linear);
+    const bool isChosen = !transfer.empty() && !header.curveIsDeclared && header.pixelType.starts_with("uint");
+    return loadPhotograph(file, isChosen ? curveFromName(transfer) : header.curve);
 }
 
 bool holdsCodes(const std::filesystem::path& file)
@@ -56,8 +61,8 @@ Image codesOf(const Image& radiance, const std::filesystem::path& file, bool asS
 
 Comparison compare(const CompareArguments& arguments)
 {
-    const Image picture = loadForComparison(arguments.picture);
-    const Image reference = loadForComparison(arguments.reference);
+    const Image picture = loadForComparison(arguments.picture, arguments.transfer);
+    const Image reference = loadForComparison(arguments.reference, arguments.transfer);
     if (picture.width != reference.width || picture.height != reference.height) {
         throw Error(
             arguments.picture, fmt::format("is {}x{}", picture.width, picture.height),
@@ -102,6 +107,10 @@ void runCompare(const CompareArguments& arguments)
         throw Error("", fmt::format("--code-tolerance {} is not possible", arguments.codeTolerance), "0 to 255",
                     Error::kUsage);
     }
+    if (!arguments.transfer.empty()) {
+        curveFromName(arguments.transfer);
+    }
+    requireSummary(arguments.json, arguments.force);
     const Comparison found = compare(arguments);
     fmt::print("PSNR {:.2f} dB of radiance, peak {:.4g}\n", found.psnr, found.peak);
     fmt::print("SSIM {:.5f}; codes differ by {} of 255 at most, {:.3f} % of the pixels by more than {}\n",
@@ -128,6 +137,10 @@ void addCompareCommand(CLI::App& app)
         ->required();
     command->add_option("REFERENCE", arguments->reference, "Picture to compare with")->required();
     command->add_option("--mask", arguments->mask, "Picture that is white where to compare");
+    command
+        ->add_option("--transfer", arguments->transfer,
+                     "Transfer curve of pictures of integers that declare none (default: sRGB for JPEG, else linear)")
+        ->option_text("linear|srgb");
     command->add_option("--peak", arguments->peak,
                         "Radiance that counts as 1 (default: 99th percentile of the reference)");
     command->add_option("--at-least", arguments->atLeast, "Least PSNR in dB, below which the exit code is 1");
@@ -135,7 +148,8 @@ void addCompareCommand(CLI::App& app)
                         "Largest difference, in codes of 255, of pixels that are not counted [4]");
     command->add_option("--ssim-at-least", arguments->ssimAtLeast,
                         "Least structural similarity, below which the exit code is 1");
-    command->add_option("--json", arguments->json, "File for the figures as JSON");
+    command->add_option("--json", arguments->json, "File for the figures as JSON")->option_text("OUT.json");
+    command->add_flag("--force", arguments->force, "Replacement of an existing output");
     command->footer("Example:\n  nacre compare render.exr horse.4.tga --mask horse.mask.tga --at-least 20");
     command->callback([arguments] { runCompare(*arguments); });
 }

@@ -23,6 +23,7 @@ namespace nacre {
 
 namespace {
 
+constexpr const char* kSheet = "demo.png";
 constexpr int kTargetSize = 320;       // pixels of each target's side on the sheet
 constexpr size_t kShownPhotograph = 5; // an oblique light, so that shape and shadow show
 
@@ -146,7 +147,7 @@ void runDemo(const DemoArguments& arguments)
         throw Error("", fmt::format("--threads {} is not possible", arguments.threads), "1 or more, or 0 for all",
                     Error::kUsage);
     }
-    requireDestination(arguments.folder, arguments.force);
+    requireWholeFolder(arguments.folder, arguments.force, kSheet);
     WholeOutput output(arguments.folder, arguments.force);
     std::filesystem::create_directory(output.temporary());
     if (!arguments.quiet) {
@@ -161,14 +162,14 @@ void runDemo(const DemoArguments& arguments)
     endProgressLine(arguments.quiet);
     saveSurface(output.temporary() / "demo.nacre", result.surface, false);
     const Image sheet = makeSheet(capture, result.surface, arguments);
-    saveImage(output.temporary() / "demo.png", sheet, PixelType::uint8);
+    saveImage(output.temporary() / kSheet, sheet, PixelType::uint8);
     output.commit();
     if (!arguments.quiet) {
         fmt::print("{}{}{}", describeNormals(capture, result.estimate), describeBrdf(result),
                    describe(result.estimate.times));
         fmt::print("in all       {:.1f} seconds\n", watch.seconds());
     }
-    fmt::print("{}\n", (std::filesystem::absolute(arguments.folder) / "demo.png").string());
+    fmt::print("{}\n", (std::filesystem::absolute(arguments.folder) / kSheet).string());
 }
 
 } // namespace
@@ -178,6 +179,7 @@ void addDemoCommand(CLI::App& app)
     auto arguments = std::make_shared<DemoArguments>();
     CLI::App* command = app.add_subcommand("demo", "The whole chain on a small capture that is made on the spot");
     command->add_option("-o,--output", arguments->folder, "Folder for the capture, the surface and demo.png")
+        ->option_text("OUT")
         ->capture_default_str();
     command->add_option("--device", arguments->device,
                         "Vulkan device: number or part of its name in nacre info (default: the first)");

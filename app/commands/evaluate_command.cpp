@@ -208,11 +208,9 @@ size_t holdOutEvery(const std::string& text)
 // Refuses now what it would refuse after the work.
 void checkOutputs(const EvaluateArguments& arguments)
 {
-    requireSummaryDestination(arguments.common.json);
-    requireFolderDestination(arguments.output);
-    if (std::filesystem::exists(arguments.output / kWorst)) {
-        requireDestination(arguments.output / kWorst, arguments.common.force);
-    }
+    requireSummary(arguments.common.json, arguments.common.force);
+    requirePictureFolder(arguments.output, arguments.common.force);
+    requirePictureFolder(arguments.common.debugFolder, arguments.common.force);
 }
 
 std::optional<AngularError> normalError(const EvaluateArguments& arguments, const Capture& capture,
@@ -280,8 +278,10 @@ void addEvaluateCommand(CLI::App& app)
     command->add_option("--truth", arguments->truth,
                         "True normals to compare with (.mat, .png, .exr), or sphere for those of the ball that fills "
                         "the mask (default: those of the capture)");
-    command->add_option("-o,--output", arguments->output,
-                        "Folder for worst.png: the photograph predicted worst, its prediction, their difference");
+    command
+        ->add_option("-o,--output", arguments->output,
+                     "Folder for worst.png: the photograph predicted worst, its prediction, their difference")
+        ->option_text("OUT");
     command->add_flag(
         "--baselines", arguments->baselines,
         "Comparison with per-pixel relighting: PTM, HSH, RBF, thin-plate splines, each at its best smoothing");

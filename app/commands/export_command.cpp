@@ -18,6 +18,7 @@
 #include "app/commands/commands.h"
 #include "engine/files/error.h"
 #include "engine/files/parallel_for.h"
+#include "engine/files/text_files.h"
 #include "engine/files/whole_file.h"
 #include "engine/loading/scene_loading.h"
 #include "engine/rti/ptm_file.h"
@@ -164,7 +165,7 @@ Error usageError(const std::string& wrong, const std::string& expected)
 
 void requireExtension(const char* option, const fs::path& file, const std::vector<std::string>& extensions)
 {
-    if (!file.empty() && std::find(extensions.begin(), extensions.end(), file.extension()) == extensions.end()) {
+    if (!file.empty() && std::find(extensions.begin(), extensions.end(), lowerExtension(file)) == extensions.end()) {
         throw usageError(fmt::format("{} {} is no such file", option, file.string()),
                          fmt::format("NAME{}", fmt::join(extensions, " or NAME")));
     }
@@ -208,27 +209,24 @@ void requireOutputs(const ExportArguments& arguments)
             outputs.begin() + static_cast<std::ptrdiff_t>(i)) {
             throw usageError(fmt::format("{} is asked for twice", outputs[i].string()), "a name for each output");
         }
-        if (outputs[i] != arguments.web && fs::is_directory(outputs[i])) {
-            throw Error(outputs[i], "is a folder", "the name of a file");
+        if (outputs[i] != arguments.web) {
+            requireFile(outputs[i], arguments.force);
         }
-        requireDestination(outputs[i], arguments.force);
     }
-    // A name that is mistyped should not take away a folder of something else.
-    if (arguments.force && fs::is_directory(arguments.web) && !fs::is_empty(arguments.web) &&
-        !fs::exists(arguments.web / "info.json")) {
-        throw Error(arguments.web, "is a folder of something else", "a new name, or one that --rti-web wrote");
-    }
+    requireWholeFolder(arguments.web, arguments.force, "info.json");
 }
 
 void ExportArguments::addTo(CLI::App& command)
 {
-    command.add_option("SURFACE", surface, "Folder NAME.nacre of nacre acquire")->required();
+    command.add_option("SURFACE", surface, "Folder NAME.nacre of nacre acquire")
+        ->option_text("OUT.png|OUT.exr")
+        ->required();
     command.add_option("--ptm", ptm, "Polynomial texture map to write, FILE.ptm")->option_text("FILE");
     command
         .add_option("--ptm-format", ptmFormat, "Format of the PTM: lrgb (one biquadratic and a colour a pixel) or rgb")
         ->capture_default_str();
     command.add_option("--rti-web", web, "Folder for info.json and plane_N.jpg, for OpenLIME and relight")
-        ->option_text("DIR");
+        ->option_text("OUT");
     command.add_option("--basis", basis, "Functions of --rti-web: hsh (nine) or ptm (six)")->capture_default_str();
     command.add_option("--write-normals", normals, "Normals to write, .png (16 bits, (n + 1) / 2) or .exr")
         ->option_text("FILE");
@@ -279,7 +277,7 @@ Image exportedAlbedo(const Surface& surface)
 // written as the text nacre:albedoScale. Answers that power of two, 1 for EXR.
 float saveAlbedo(const std::filesystem::path& file, const Image& albedo)
 {
-    if (file.extension() == ".exr") {
+    if (lowerExtension(file) == ".exr") {
         saveImage(file, albedo, PixelType::float32);
         return 1;
     }

@@ -47,7 +47,7 @@ void printSurface(const std::filesystem::path& folder)
     for (size_t i = 0; i < surface.materials.size(); ++i) {
         const Material& material = surface.materials[i];
         const auto pixels = std::count(surface.labels.begin(), surface.labels.end(), i);
-        fmt::print("material {}   {}: {} pixels, table {}\n", i, material.name, pixels, describe(material.table));
+        fmt::print("material {}   {}: {} pixels, table {}\n", i + 1, material.name, pixels, describe(material.table));
     }
     for (size_t i = 0; i < surface.parts.size(); ++i) {
         const auto pixels = std::count(surface.labels.begin(), surface.labels.end(), i);

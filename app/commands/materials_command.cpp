@@ -17,6 +17,7 @@
 #include "engine/files/error.h"
 #include "engine/files/parallel_for.h"
 #include "engine/files/stopwatch.h"
+#include "engine/files/text_files.h"
 #include "engine/materials/material_specification.h"
 #include "engine/scene/ball.h"
 #include "engine/scene/coverage.h"
@@ -93,14 +94,14 @@ template <typename Add> void tryAdd(Entries& entries, const std::string& specifi
 
 bool isSurfaceFolder(const fs::path& path)
 {
-    return fs::is_directory(path) && (path.extension() == ".nacre" || fs::exists(path / "surface.json"));
+    return fs::is_directory(path) && (lowerExtension(path) == ".nacre" || fs::exists(path / "surface.json"));
 }
 
 // An EXR that says nothing of a table is some other picture, no broken material.
 bool isForeignPicture(const fs::path& file)
 {
     try {
-        return file.extension() == ".exr" && readImageAttribute(file, "nacre:brdfTable").empty();
+        return lowerExtension(file) == ".exr" && readImageAttribute(file, "nacre:brdfTable").empty();
     } catch (const Error&) {
         return false;
     }
@@ -110,7 +111,7 @@ void addFound(Entries& entries, const fs::path& path)
 {
     constexpr std::array kExtensions{".binary", ".bsdf", ".exr", ".brdf"};
     const bool isFile = fs::is_regular_file(path) &&
-                        std::find(kExtensions.begin(), kExtensions.end(), path.extension()) != kExtensions.end();
+                        std::find(kExtensions.begin(), kExtensions.end(), lowerExtension(path)) != kExtensions.end();
     if (isSurfaceFolder(path)) {
         tryAdd(entries, path.string(), [&] { addSurface(entries, path.string()); });
     } else if (isFile && !isForeignPicture(path)) {
@@ -236,12 +237,12 @@ void checkArguments(const MaterialsArguments& arguments)
         throw Error("", "no place to look for materials is given", "DIR, a material, or --fits DIR", Error::kUsage);
     }
     if (!arguments.output.empty()) {
-        if (arguments.output.extension() != ".png") {
+        if (lowerExtension(arguments.output) != ".png") {
             throw Error(arguments.output, "is nothing that materials writes", ".png (a sheet of balls)", Error::kUsage);
         }
-        requireDestination(arguments.output, arguments.force);
+        requireFile(arguments.output, arguments.force);
     }
-    requireSummaryDestination(arguments.json);
+    requireSummary(arguments.json, arguments.force);
 }
 
 // The end of a name tells materials apart.
@@ -320,8 +321,8 @@ void addMaterialsCommand(CLI::App& app)
                         ".binary, .bsdf, .exr, merl-abc:NAME, ...");
     command->add_option("--fits", arguments->fits,
                         "Folder of merl_abc_params.csv and merl_sgd_params.csv, to list the published fits as well");
-    command->add_option("-o,--output", arguments->output, "Sheet of balls (.png)");
-    command->add_option("--json", arguments->json, "File for the list as JSON");
+    command->add_option("-o,--output", arguments->output, "Sheet of balls (.png)")->option_text("OUT.png");
+    command->add_option("--json", arguments->json, "File for the list as JSON")->option_text("OUT.json");
     command->add_option("--threads", arguments->threads, "Threads (0: all)")
         ->check(CLI::NonNegativeNumber)
         ->capture_default_str();

@@ -10,6 +10,7 @@
 #include "app/report/debug_pictures.h"
 #include "app/report/progress_line.h"
 #include "engine/files/error.h"
+#include "engine/files/text_files.h"
 #include "evaluation/held_out/held_out_measures.h"
 
 namespace nacre {
@@ -25,14 +26,14 @@ struct NormalsArguments {
 // Refuses now what it would refuse after the work.
 void checkOutputs(const NormalsArguments& arguments)
 {
-    const std::filesystem::path extension = arguments.output.extension();
+    const std::string extension = lowerExtension(arguments.output);
     if (extension != ".exr" && extension != ".png") {
         throw Error(arguments.output, "is no normal map that normals writes", ".exr (float) or .png (16-bit)",
                     Error::kUsage);
     }
-    requireDestination(arguments.output, arguments.common.force);
-    requireSummaryDestination(arguments.common.json);
-    requireFolderDestination(arguments.common.debugFolder);
+    requireFile(arguments.output, arguments.common.force);
+    requireSummary(arguments.common.json, arguments.common.force);
+    requirePictureFolder(arguments.common.debugFolder, arguments.common.force);
 }
 
 void runNormals(NormalsArguments& arguments)
@@ -81,7 +82,9 @@ void addNormalsCommand(CLI::App& app)
     auto arguments = std::make_shared<NormalsArguments>();
     CLI::App* command = app.add_subcommand("normals", "The first half of acquire: photographs to a normal map");
     arguments->common.addTo(*command);
-    command->add_option("-o,--output", arguments->output, "Normal map to write, .exr or .png")->required();
+    command->add_option("-o,--output", arguments->output, "Normal map to write, .exr or .png")
+        ->option_text("OUT.exr|OUT.png")
+        ->required();
     command->add_option(
         "--truth", arguments->truth,
         "True normals to compare with (.mat, .png, .exr); sphere: those of the ball that fills the mask");

@@ -146,6 +146,7 @@ void addRenderCommand(CLI::App& app)
     command
         ->add_option("-o,--output", arguments->output,
                      "Picture to write: .png (8-bit sRGB), .exr (linear) or .webp (lossless, animated)")
+        ->option_text("OUT.png|OUT.exr|OUT.webp")
         ->required();
     command->add_flag("--force", arguments->force, "Replacement of existing outputs");
     command->add_flag("--quiet", arguments->quiet, "No messages")->group("Running");

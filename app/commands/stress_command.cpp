@@ -60,11 +60,7 @@ StressSubject subjectOf(StressArguments& arguments)
 // Refuses now what it would refuse after the work.
 void checkOutput(const StressArguments& arguments)
 {
-    requireDestination(arguments.output, arguments.capture.force);
-    if (fs::exists(arguments.output) && !fs::exists(arguments.output / kStressTable)) {
-        throw Error(arguments.output, "exists and holds no " + std::string(kStressTable),
-                    "a new name; --force replaces the results of stress alone");
-    }
+    requireWholeFolder(arguments.output, arguments.capture.force, kStressTable);
 }
 
 // Answers what kept charts from being drawn.
@@ -122,6 +118,7 @@ void addStressCommand(CLI::App& app)
         ->add_option("-o,--output", arguments->output,
                      "Folder to write: stress.csv, stress.txt, stress.html, charts as .svg (by gnuplot, where "
                      "installed) and the scripts .gp that draw them")
+        ->option_text("OUT")
         ->required();
     command
         ->add_option(

@@ -75,7 +75,7 @@ void run(SynthArguments& arguments)
         throw Error("", fmt::format("--threads {} is not possible", o.threads), "1 or more, or 0 for all",
                     Error::kUsage);
     }
-    requireDestination(arguments.output, arguments.force);
+    requireWholeFolder(arguments.output, arguments.force, "capture.json");
     o.width = o.height = arguments.size;
     o.shadows = !arguments.noShadows;
     if (!arguments.materials.empty()) {
@@ -98,7 +98,7 @@ void addSynthCommand(CLI::App& app)
     SynthOptions& o = arguments->options;
     CLI::App* command = app.add_subcommand("synth", "Make a capture of a solid whose truth is known");
     command->footer(kExample);
-    command->add_option("OUT", arguments->output, "Folder to write")->required();
+    command->add_option("OUT", arguments->output, "Folder to write")->option_text("OUT")->required();
     command->add_option("--shape", arguments->shape, "Solid: bumpy (casts shadows), bowl or sphere")
         ->capture_default_str();
     command->add_option("--side", arguments->size, "Side of a photograph in pixels")->capture_default_str();

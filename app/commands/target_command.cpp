@@ -8,6 +8,7 @@
 #include "app/materials/target_source.h"
 #include "engine/files/error.h"
 #include "engine/files/stopwatch.h"
+#include "engine/files/text_files.h"
 
 namespace nacre {
 
@@ -39,10 +40,10 @@ void print(const TargetReport& report)
 
 void runTarget(const TargetCommandArguments& arguments)
 {
-    if (arguments.output.extension() != ".nacre") {
+    if (lowerExtension(arguments.output) != ".nacre") {
         throw Error(arguments.output, "is no name for a surface", "-o NAME.nacre", Error::kUsage);
     }
-    requireDestination(arguments.output, arguments.force);
+    requireWholeFolder(arguments.output, arguments.force, kSurfaceDescription);
     TargetReport report = targetFromSource(arguments);
     for (const std::string& warning : report.warnings) {
         fmt::print(stderr, "nacre: warning: {}\n", warning);
@@ -67,7 +68,9 @@ void addTargetCommand(CLI::App& app)
                      "Mesh (.obj, .ply, .gltf, .glb, .stl), height map (one channel), normal map, NAME.nacre, or "
                      "make:NAME, a shape that is generated")
         ->required();
-    command->add_option("-o,--output", arguments->output, "Surface to write, NAME.nacre")->required();
+    command->add_option("-o,--output", arguments->output, "Surface to write, NAME.nacre")
+        ->option_text("OUT.nacre")
+        ->required();
     command->add_option("--from", arguments->from, "Direction x,y,z from a mesh towards the distant viewer [0,0,1]");
     command->add_option("--up", arguments->up,
                         "Direction x,y,z of a mesh that is up in the picture [0,1,0; seen along y: 0,0,-1]");

@@ -221,7 +221,7 @@ void runTransfer(const TransferArguments& arguments)
     const auto seconds = [&] { return watch.seconds(); };
     checkArguments(arguments);
     const RenderOutput output = outputOf(arguments);
-    requireDestination(arguments.output, arguments.force);
+    requireWholeFolder(arguments.output, arguments.force, "sheet");
     WholeOutput folder(arguments.output, arguments.force);
     const Context context(arguments.device);
     const PictureSize size = sizeFromArgument("--size", arguments.size);
@@ -276,6 +276,7 @@ void addTransferCommand(CLI::App& app)
     command->add_flag("--hatch", arguments->hatch, "Stripes where a picture is uncertain by over 20 %");
     command->add_flag("--shadows", arguments->shadows, "Cast shadows, from the height of the shapes");
     command->add_option("-o,--output", arguments->output, "Folder for sheet_RIG.png and every single picture")
+        ->option_text("OUT")
         ->required();
     command->add_option("--device", arguments->device,
                         "Vulkan device: number or part of its name in nacre info (default: the first)");

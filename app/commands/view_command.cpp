@@ -7,6 +7,7 @@
 #include "app/commands/commands.h"
 #include "app/materials/captured_photographs.h"
 #include "engine/files/error.h"
+#include "engine/files/text_files.h"
 #include "engine/loading/scene_loading.h"
 #include "engine/scene/picture_size.h"
 #include "engine/viewer/viewer.h"
@@ -28,7 +29,7 @@ struct ViewArguments {
 
 void check(const ViewArguments& arguments, const SceneDescription& scene)
 {
-    if (arguments.headless && arguments.output.extension() != ".png") {
+    if (arguments.headless && lowerExtension(arguments.output) != ".png") {
         throw Error("", "--headless has nowhere to draw to", "-o FILE.png with it", Error::kUsage);
     }
     if (!arguments.headless && !arguments.output.empty()) {
@@ -73,7 +74,8 @@ void runView(const ViewArguments& arguments)
     SceneDescription scene = sceneFrom(arguments);
     check(arguments, scene);
     if (arguments.headless) {
-        requireDestination(arguments.output, arguments.force);
+        requireFile(arguments.output, arguments.force);
+        requireFile(std::filesystem::path(arguments.output).replace_extension(".json"), arguments.force);
     }
     const PictureSize size = sizeFromArgument("--window", arguments.window.empty() ? "1280x720" : arguments.window);
     makeAbsolute(scene);
@@ -115,8 +117,9 @@ void addViewCommand(CLI::App& app)
     command->add_option("--window", arguments->window, "Size of the window in pixels, WxH [1280x720]")
         ->group("Running");
     command->add_flag("--headless", arguments->headless, "Picture of --output instead of a window");
-    command->add_option("-o,--output", arguments->output,
-                        "Picture for --headless, .png; its state is written beside it");
+    command
+        ->add_option("-o,--output", arguments->output, "Picture for --headless, .png; its state is written beside it")
+        ->option_text("OUT.png");
     command->add_flag("--force", arguments->force, "Replacement of existing outputs");
     command->footer("Example:\n  nacre view horse.nacre --capture horse\n  nacre view horse.nacre --onto cloth.exr\n"
                     "  nacre view --state nacre-0001.json --headless -o again.png\nIn the window, H shows the keys.");

@@ -77,7 +77,11 @@ HeldCapture heldOf(const std::filesystem::path& capture, const std::filesystem::
 {
     HeldCapture held;
     held.surface = loadSurface(surface);
-    held.capture = loadCapture(capture);
+    CaptureOptions options; // as acquire read them
+    if (!held.surface.transfer.empty()) {
+        options.transfer = held.surface.transfer == "srgb" ? TransferCurve::srgb : TransferCurve::linear;
+    }
+    held.capture = loadCapture(capture, options);
     require(held, capture);
     held.photographOf = photographsOfLights(held.surface, held.capture, capture);
     return held;

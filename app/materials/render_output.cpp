@@ -8,6 +8,7 @@
 #include "app/arguments/destinations.h"
 #include "engine/files/animation_file.h"
 #include "engine/files/error.h"
+#include "engine/files/text_files.h"
 #include "engine/scene/scene_residual.h"
 
 namespace nacre {
@@ -21,7 +22,7 @@ constexpr int kExposureFrames = 8; // of a sequence, to find one exposure for al
 // One for all frames of an animation.
 fs::path fileOfFrame(const fs::path& output, int frame, int frames)
 {
-    if (frames == 1 || output.extension() == kAnimation) {
+    if (frames == 1 || lowerExtension(output) == kAnimation) {
         return output;
     }
     return output.parent_path() /
@@ -77,7 +78,7 @@ void checkLook(const RenderOutput& output)
 
 RenderOutput checkedOutput(const SceneDescription& scene, const fs::path& file, bool force)
 {
-    const std::string extension = file.extension().string();
+    const std::string extension = lowerExtension(file);
     if (extension != ".png" && extension != ".exr" && extension != kAnimation) {
         throw Error(file, "is no picture that render writes",
                     ".png (8-bit sRGB) or .exr (linear radiance) or .webp (animated)", Error::kUsage);
@@ -99,7 +100,7 @@ RenderOutput checkedOutput(const SceneDescription& scene, const fs::path& file, 
                               .isAnimation = extension == kAnimation};
     checkLook(output);
     for (int frame = 0; frame < output.frames; ++frame) {
-        requireDestination(fileOfFrame(file, frame, output.frames), force);
+        requireFile(fileOfFrame(file, frame, output.frames), force);
     }
     return output;
 }

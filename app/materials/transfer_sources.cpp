@@ -111,6 +111,10 @@ template <typename GoesOn> std::vector<std::string> split(const std::vector<std:
 {
     std::vector<std::string> values;
     for (const std::string& text : texts) {
+        if (std::filesystem::exists(text.substr(0, text.find('#')))) { // a name with commas
+            values.push_back(text);
+            continue;
+        }
         std::istringstream stream(text);
         bool isFirst = true;
         for (std::string piece; std::getline(stream, piece, ','); isFirst = false) {

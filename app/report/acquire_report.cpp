@@ -9,7 +9,6 @@
 #include <glm/trigonometric.hpp>
 
 #include "acquisition/chain/acquire.h"
-#include "app/arguments/destinations.h"
 #include "app/report/acquisition_summary.h"
 #include "app/report/debug_pictures.h"
 #include "app/report/report_figures.h"
@@ -310,14 +309,6 @@ std::string reportOf(const ReportSubject& subject)
         predictionSection(subject) + materials(subject, pictures.ofMaterials(subject.acquisition.surface.materials)) +
         lightSection(subject) + verdictSection(subject) + heading("Photographs") + sheetOf(photographs, "sheet");
     return html + kPageEnd;
-}
-
-void requireReportDestination(const std::filesystem::path& folder, bool replace)
-{
-    requireFolderDestination(folder);
-    if (!folder.empty() && std::filesystem::exists(folder / kReport)) {
-        requireDestination(folder / kReport, replace);
-    }
 }
 
 void saveReport(const std::filesystem::path& folder, const std::string& html)

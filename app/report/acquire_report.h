@@ -16,8 +16,7 @@ struct ReportSubject {
 // photograph is predicted. It needs no other file, no network and no script.
 std::string reportOf(const ReportSubject& subject);
 
-// Refuses a folder whose report would be replaced without `replace`, or that cannot be made. Empty: none asked for.
-void requireReportDestination(const std::filesystem::path& folder, bool replace);
+// `folder` is made where it is missing.
 void saveReport(const std::filesystem::path& folder, const std::string& html);
 
 } // namespace nacre

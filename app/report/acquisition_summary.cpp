@@ -140,7 +140,7 @@ std::string describe(const Capture& capture)
     }
     return text + fmt::format("\nmask         {} pixels ({:.1f} %)\ncurve        {} ({})\n", capture.maskPixels,
                               100.0 * static_cast<double>(capture.maskPixels) / (1.0 * capture.width * capture.height),
-                              capture.curve == TransferCurve::srgb ? "sRGB" : "linear", capture.curveSource);
+                              capture.curve.name, capture.curveSource);
 }
 
 std::string describe(const Capture& capture, const Rig& rig)
@@ -298,7 +298,7 @@ Json summaryOf(const Capture& capture, const NormalEstimate& estimate)
                  {"width", capture.width},
                  {"height", capture.height},
                  {"maskPixels", capture.maskPixels},
-                 {"curve", capture.curve == TransferCurve::srgb ? "srgb" : "linear"},
+                 {"curve", capture.curve == TransferCurve::srgb ? "srgb" : capture.curve.name},
                  {"directionsFrom", rig.directionsFrom},
                  {"irradiancesFrom", rig.irradiancesFrom},
                  {"conditionNumber", rig.condition},

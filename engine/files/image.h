@@ -9,6 +9,7 @@
 
 #include <glm/vec3.hpp>
 
+#include "engine/files/transfer_curve.h"
 #include "shared/tone.h"
 
 namespace nacre {
@@ -42,9 +43,6 @@ struct Image {
     }
 };
 
-// The curve between a file's numbers and linear light.
-enum class TransferCurve { linear, srgb };
-
 // What a file says of itself.
 struct ImageHeader {
     int width = 0; // as displayed, after EXIF orientation
@@ -52,10 +50,11 @@ struct ImageHeader {
     int channels = 0;
     std::string format;    // OpenImageIO's name of it, e.g. "png"
     std::string pixelType; // e.g. "uint16", "float"
-    // What an explicit sRGB or gAMA chunk, ICC profile or EXIF tag in the file says; linear where none does (a
-    // reader's own guess does not count).
-    TransferCurve declaredCurve = TransferCurve::linear;
+    // What an explicit sRGB or gAMA chunk, ICC profile or EXIF tag in the file says. Where none does (a reader's own
+    // guess does not count), what is assumed: sRGB for JPEGs of 8 bits, which cameras write so, else linear.
+    TransferCurve curve = TransferCurve::linear;
     bool curveIsDeclared = false;
+    bool hasOtherPrimaries = false;        // than Rec. 709: colours are those of the file all the same
     std::optional<double> exposureSeconds; // EXIF
     std::optional<double> filmFocalLength; // EXIF: in mm, of the lens that would show as much on 35 mm film
 };
@@ -68,7 +67,7 @@ ImageHeader readImageHeader(const std::filesystem::path& file);
 // dropped. Formats whose readers hold the whole picture are held here too.
 class ImageRows {
 public:
-    ImageRows(const std::filesystem::path& file, TransferCurve curve);
+    ImageRows(const std::filesystem::path& file, const TransferCurve& curve);
     ~ImageRows();
     ImageRows(ImageRows&&) noexcept;
     ImageRows& operator=(ImageRows&&) noexcept;
@@ -86,7 +85,7 @@ private:
 };
 
 // A photograph's picture: 1 or 3 channels, linear after `curve`. Throws Error on unreadable files and NaN values.
-Image loadPhotograph(const std::filesystem::path& file, TransferCurve curve);
+Image loadPhotograph(const std::filesystem::path& file, const TransferCurve& curve);
 
 // Any picture with the numbers as stored (integers divided by their full scale), all channels, in R, G, B, A order for
 // EXR, where files are alphabetical.

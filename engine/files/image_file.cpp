@@ -12,36 +12,39 @@
 #include <fmt/format.h>
 
 #include "engine/files/error.h"
+#include "engine/files/icc_profile.h"
 #include "engine/files/image.h"
+#include "engine/files/text_files.h"
 #include "engine/files/whole_file.h"
-#include "shared/shading.h"
 
 namespace nacre {
 namespace fs = std::filesystem;
 
 namespace {
 
-// What a PNG's own sRGB, gAMA or iCCP chunk says of its curve; picture readers add a guess, which hides whether it
-// does.
-struct PngColour {
-    bool declared = false;
-    TransferCurve curve = TransferCurve::linear;
-};
-
-// gAMA holds 100000 times the exponent from light to code value: 1 is linear, 0.45 the usual display. What lies
-// between is taken for the nearer of both.
-constexpr uint32_t kLinearGamaAbove = 72700;
+// gAMA holds 100000 times the exponent from light to code value: 1 is linear, 0.45 the usual display's, which stands
+// for sRGB (PNG specification, 1996, 4.2.2.3).
+constexpr uint32_t kGamaUnit = 100000, kDisplayGama = 45455, kDisplayGamaWidth = 1000;
 
 uint32_t bigEndian(const unsigned char* bytes)
 {
     return uint32_t{bytes[0]} << 24 | uint32_t{bytes[1]} << 16 | uint32_t{bytes[2]} << 8 | bytes[3];
 }
 
-PngColour readPngColour(const std::filesystem::path& file)
+TransferCurve curveOfGama(uint32_t gama)
+{
+    if (gama == 0 || (gama > kDisplayGama - kDisplayGamaWidth && gama < kDisplayGama + kDisplayGamaWidth)) {
+        return TransferCurve::srgb;
+    }
+    return powerCurve(static_cast<double>(kGamaUnit) / gama);
+}
+
+// What a PNG's own sRGB or gAMA chunk says of its curve; picture readers add a guess, which hides whether it does.
+std::optional<TransferCurve> pngCurve(const std::filesystem::path& file)
 {
     std::ifstream stream(file, std::ios::binary);
     stream.seekg(8); // signature
-    PngColour colour;
+    std::optional<TransferCurve> curve;
     unsigned char head[8];
     while (stream.read(reinterpret_cast<char*>(head), sizeof head)) {
         const uint32_t length = bigEndian(head);
@@ -49,19 +52,19 @@ PngColour readPngColour(const std::filesystem::path& file)
         if (type == "IDAT" || type == "IEND") {
             break;
         }
-        if (type == "sRGB" || type == "iCCP") {
-            return {true, TransferCurve::srgb};
+        if (type == "sRGB") {
+            return TransferCurve::srgb;
         }
         if (type == "gAMA" && length == 4) {
             unsigned char gamma[4];
             stream.read(reinterpret_cast<char*>(gamma), sizeof gamma);
-            colour = {true, bigEndian(gamma) > kLinearGamaAbove ? TransferCurve::linear : TransferCurve::srgb};
+            curve = curveOfGama(bigEndian(gamma));
             stream.seekg(4, std::ios::cur);
         } else {
             stream.seekg(std::streamoff{length} + 4, std::ios::cur);
         }
     }
-    return colour;
+    return curve;
 }
 
 constexpr int kStartOfImage = 0xd8, kEndOfImage = 0xd9, kTemporary = 0x01;
@@ -175,15 +178,32 @@ std::vector<int> channelOrder(const OIIO::ImageSpec& spec)
     return order;
 }
 
+std::optional<IccColour> profileOf(const OIIO::ImageSpec& spec)
+{
+    const OIIO::ParamValue* profile = spec.find_attribute("ICCProfile");
+    return profile ? readIccProfile(
+                         {static_cast<const unsigned char*>(profile->data()), static_cast<size_t>(profile->datasize())})
+                   : std::nullopt;
+}
+
+// Exif 2.32, ColorSpace: 1 is sRGB. Anything else is not linear either; cameras mean Adobe RGB by it.
+constexpr int kExifSrgb = 1, kExifNone = 0;
+
 void declareCurve(ImageHeader& header, const fs::path& file, const OIIO::ImageSpec& spec)
 {
-    if (header.format == "png") {
-        const PngColour colour = readPngColour(file);
-        header.curveIsDeclared = colour.declared;
-        header.declaredCurve = colour.curve;
-    } else if (spec.get_int_attribute("Exif:ColorSpace", 0) == 1 || spec.find_attribute("ICCProfile")) {
-        header.curveIsDeclared = true;
-        header.declaredCurve = TransferCurve::srgb;
+    const int exif = spec.get_int_attribute("Exif:ColorSpace", kExifNone);
+    header.curveIsDeclared = true;
+    if (const std::optional<IccColour> profile = profileOf(spec)) {
+        header.curve = profile->curve;
+        header.hasOtherPrimaries = profile->hasOtherPrimaries;
+    } else if (const auto png = header.format == "png" ? pngCurve(file) : std::nullopt) {
+        header.curve = *png;
+    } else if (exif == kExifSrgb) {
+        header.curve = TransferCurve::srgb;
+    } else {
+        header.curveIsDeclared = false;
+        const bool isDisplayed = header.format == "jpeg" || exif != kExifNone || spec.find_attribute("ICCProfile");
+        header.curve = isDisplayed && header.pixelType == "uint8" ? TransferCurve::srgb : TransferCurve::linear;
     }
 }
 
@@ -238,13 +258,6 @@ std::vector<float> readUpright(const fs::path& file, OIIO::ImageInput& input)
     return values;
 }
 
-void decodeCurve(std::span<float> values, TransferCurve curve)
-{
-    if (curve == TransferCurve::srgb) {
-        std::transform(values.begin(), values.end(), values.begin(), linearFromSrgb);
-    }
-}
-
 // From interleaved pixels of order.size() or more channels to the first `channels` of `order`.
 void pickChannels(std::span<const float> from, int fromChannels, const std::vector<int>& order, int channels,
                   std::span<float> to)
@@ -277,7 +290,7 @@ struct ImageRows::Reader {
     std::vector<float> rows;
 };
 
-ImageRows::ImageRows(const fs::path& file, TransferCurve curve) : reader_(std::make_unique<Reader>())
+ImageRows::ImageRows(const fs::path& file, const TransferCurve& curve) : reader_(std::make_unique<Reader>())
 {
     Reader& r = *reader_;
     r.file = file;
@@ -339,7 +352,7 @@ void ImageRows::read(int first, int last, std::span<float> out)
     decodeCurve(out, r.curve);
 }
 
-Image loadPhotograph(const fs::path& file, TransferCurve curve)
+Image loadPhotograph(const fs::path& file, const TransferCurve& curve)
 {
     ImageRows rows(file, curve);
     Image image(rows.header().width, rows.header().height, rows.channels());
@@ -393,7 +406,7 @@ OIIO::ImageSpec specOf(const fs::path& file, const Image& image, PixelType type,
                        const std::vector<ImageAttribute>& attributes)
 {
     OIIO::ImageSpec spec(image.width, image.height, image.channels, oiioType(type));
-    if (file.extension() != ".tif" && file.extension() != ".tiff") {
+    if (lowerExtension(file) != ".tif" && lowerExtension(file) != ".tiff") {
         spec.attribute("oiio:ColorSpace", type == PixelType::uint8 ? "sRGB" : "Linear");
     }
     spec.attribute("oiio:UnassociatedAlpha", 1);

@@ -5,6 +5,9 @@
 #include <cmath>
 
 #include <fmt/format.h>
+#include <unicode/normalizer2.h>
+#include <unicode/unistr.h>
+#include <unicode/ustring.h>
 
 #include "engine/files/error.h"
 #include "engine/files/whole_file.h"
@@ -90,11 +93,33 @@ void requireEqualRows(const fs::path& file, const NumberTable& rows)
     }
 }
 
+bool isUtf8(std::string_view text)
+{
+    UErrorCode error = U_ZERO_ERROR;
+    int32_t length = 0;
+    u_strFromUTF8(nullptr, 0, &length, text.data(), static_cast<int32_t>(text.size()), &error);
+    return error != U_INVALID_CHAR_FOUND;
+}
+
+std::string inUtf8(std::string text)
+{
+    const char* encoding = text.starts_with("\xff\xfe")   ? "utf-16le"
+                           : text.starts_with("\xfe\xff") ? "utf-16be"
+                           : isUtf8(text)                 ? nullptr
+                                                          : "windows-1252";
+    if (!encoding) {
+        return text;
+    }
+    const icu::UnicodeString read(text.data(), static_cast<int32_t>(text.size()), encoding);
+    std::string result;
+    return read.toUTF8String(result);
+}
+
 } // namespace
 
 std::vector<std::string> loadTextLines(const fs::path& file)
 {
-    const std::string text = readTextFile(file);
+    const std::string text = inUtf8(readTextFile(file));
     std::string_view rest = text;
     if (rest.starts_with(kUtf8ByteOrderMark)) {
         rest.remove_prefix(kUtf8ByteOrderMark.size());
@@ -116,6 +141,21 @@ std::string lowerCase(std::string_view text)
     std::transform(result.begin(), result.end(), result.begin(),
                    [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
     return result;
+}
+
+std::string comparable(std::string_view name)
+{
+    UErrorCode error = U_ZERO_ERROR;
+    const icu::Normalizer2* normalizer = icu::Normalizer2::getNFKCCasefoldInstance(error);
+    const icu::UnicodeString read = icu::UnicodeString::fromUTF8({name.data(), static_cast<int32_t>(name.size())});
+    const icu::UnicodeString same = U_SUCCESS(error) ? normalizer->normalize(read, error) : read;
+    std::string text;
+    return U_SUCCESS(error) ? same.toUTF8String(text) : lowerCase(name);
+}
+
+std::string lowerExtension(const fs::path& file)
+{
+    return lowerCase((file.has_filename() ? file : file.parent_path()).extension().string());
 }
 
 std::optional<double> parseNumber(std::string_view token)

@@ -7,10 +7,16 @@
 
 namespace nacre {
 
+// In UTF-8, from UTF-8 or, by its byte order mark, UTF-16, or Windows-1252 where it is neither.
 // The lines of a text file without line ends and the white space around them; blank lines are left out.
 std::vector<std::string> loadTextLines(const std::filesystem::path& file);
 
 std::string lowerCase(std::string_view text);
+// Names that a person takes for the same are equal: without case, and whether accents are letters' own (NFC) or come
+// behind them (NFD, as macOS writes). UTF-8.
+std::string comparable(std::string_view name);
+// ".png" of a.PNG, ".nacre" of the folder a.nacre/.
+std::string lowerExtension(const std::filesystem::path& file);
 
 // Independent of the locale; NaN and infinity are no numbers here.
 std::optional<double> parseNumber(std::string_view token);

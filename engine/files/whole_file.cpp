@@ -1,12 +1,16 @@
 #include "engine/files/whole_file.h"
 
+#include <algorithm>
 #include <cerrno>
+#include <charconv>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
+#include <iterator>
 #include <sstream>
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -31,17 +35,96 @@ fs::path temporaryBeside(const fs::path& destination)
            fmt::format(".{}.{}.part{}", destination.stem().string(), getpid(), destination.extension().string());
 }
 
+constexpr int kMostLinks = 40; // as Linux follows
+
+// What links lead to, there or not, so that it is replaced and not the link.
+fs::path behindLinks(const fs::path& path)
+{
+    std::error_code ignored;
+    fs::path file = path;
+    for (int i = 0; fs::is_symlink(file, ignored); ++i) {
+        if (i == kMostLinks) {
+            throw Error(path, "is a link that leads back to itself", "a link to a file or folder");
+        }
+        file = file.parent_path() / fs::read_symlink(file);
+    }
+    return file;
+}
+
+// N of /dev/fd/N and its other names; -1 for every other path.
+int descriptorNamed(const fs::path& file)
+{
+    const std::string& name = file.native();
+    constexpr const char* kStandard[] = {"/dev/stdin", "/dev/stdout", "/dev/stderr"};
+    const auto standard = std::find(std::begin(kStandard), std::end(kStandard), name);
+    if (standard != std::end(kStandard)) {
+        return static_cast<int>(standard - std::begin(kStandard));
+    }
+    const fs::path folder = file.parent_path();
+    const std::string number = file.filename();
+    int descriptor = -1;
+    const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), descriptor);
+    const bool isNumber = error == std::errc() && end == number.data() + number.size();
+    return isNumber && (folder == "/dev/fd" || folder == "/proc/self/fd") ? descriptor : -1;
+}
+
+void writeThrough(int descriptor, const fs::path& file, std::span<const unsigned char> bytes)
+{
+    std::fflush(stdout); // what was printed before comes before
+    while (!bytes.empty()) {
+        const ssize_t written = write(descriptor, bytes.data(), bytes.size());
+        if (written < 0 && errno != EINTR) {
+            throw Error(file, fmt::format("cannot be written: {}", std::strerror(errno)), "a stream that takes bytes");
+        }
+        bytes = bytes.subspan(static_cast<size_t>(std::max<ssize_t>(written, 0)));
+    }
+}
+
+void writeStream(const fs::path& file, std::span<const unsigned char> bytes)
+{
+    const int named = descriptorNamed(file), descriptor = named >= 0 ? dup(named) : open(file.c_str(), O_WRONLY);
+    if (descriptor < 0) {
+        throw Error(file, fmt::format("cannot be opened: {}", std::strerror(errno)), "a stream that may be written");
+    }
+    try {
+        writeThrough(descriptor, file, bytes);
+    } catch (...) {
+        close(descriptor);
+        throw;
+    }
+    close(descriptor);
+}
+
+// The part of WholeOutput's promise that can change while the work is done.
+void requireSameKind(const fs::path& temporary, const fs::path& destination)
+{
+    const fs::file_type there = fs::status(destination).type();
+    if (there != fs::file_type::not_found && there != fs::status(temporary).type()) {
+        throw Error(destination, there == fs::file_type::directory ? "is a folder" : "is no folder",
+                    "the same kind, or a new name");
+    }
+}
+
 } // namespace
 
+bool isStream(const fs::path& file)
+{
+    std::error_code ignored;
+    const fs::file_status status = fs::status(file, ignored);
+    return descriptorNamed(file) >= 0 || fs::is_character_file(status) || fs::is_fifo(status);
+}
+
 WholeOutput::WholeOutput(fs::path destination, bool replace)
-    : destination_(withoutTrailingSlash(std::move(destination))), temporary_(temporaryBeside(destination_)),
-      replace_(replace)
+    : destination_(behindLinks(withoutTrailingSlash(std::move(destination)))), temporary_(temporaryBeside(destination_))
 {
     if (destination_.empty()) {
         throw Error("", "an output without a name", "a path", Error::kUsage);
     }
-    if (fs::exists(destination_) && !replace_) {
+    if (fs::exists(destination_) && !replace) {
         throw Error(destination_, "exists already", "a new name, or leave to replace it");
+    }
+    if (fs::exists(destination_) && !fs::is_regular_file(destination_) && !fs::is_directory(destination_)) {
+        throw Error(destination_, "is neither file nor folder", "a new name");
     }
     const fs::path parent = destination_.parent_path();
     if (!parent.empty() && !fs::is_directory(parent)) {
@@ -49,25 +132,19 @@ WholeOutput::WholeOutput(fs::path destination, bool replace)
     }
 }
 
-WholeOutput::~WholeOutput()
-{
-    std::error_code ignored;
-    fs::remove_all(temporary_, ignored);
-}
-
-// A folder cannot be renamed over a full one or over a file: the old one steps aside first, and comes back if the
-// rename fails.
+// A folder cannot be renamed over a full one: the old one steps aside first, and comes back if the rename fails.
 void WholeOutput::commit()
 {
+    const std::unique_lock lock = holdUnfinished();
+    requireSameKind(temporary(), destination_);
     std::error_code error;
-    const bool folders = fs::is_directory(destination_, error) || fs::is_directory(temporary_, error);
-    if (!folders || !fs::exists(destination_)) {
-        fs::rename(temporary_, destination_, error);
+    if (!fs::is_directory(destination_)) {
+        fs::rename(temporary(), destination_, error);
     } else {
-        const fs::path aside = temporary_.string() + ".old";
+        const fs::path aside = temporary().string() + ".old";
         fs::rename(destination_, aside, error);
         if (!error) {
-            fs::rename(temporary_, destination_, error);
+            fs::rename(temporary(), destination_, error);
             std::error_code ignored;
             if (error) {
                 fs::rename(aside, destination_, ignored);
@@ -83,6 +160,10 @@ void WholeOutput::commit()
 
 void writeWholeFile(const fs::path& file, std::span<const unsigned char> bytes)
 {
+    if (isStream(file)) {
+        writeStream(file, bytes);
+        return;
+    }
     WholeOutput output(file, true);
     std::FILE* stream = std::fopen(output.temporary().c_str(), "wb");
     const bool written = stream && std::fwrite(bytes.data(), 1, bytes.size(), stream) == bytes.size();
@@ -116,22 +197,22 @@ std::string readWholeFile(const fs::path& file, const std::string& expected)
     return text.str();
 }
 
-TemporaryFolder::TemporaryFolder()
+namespace {
+
+fs::path makeTemporaryFolder()
 {
     std::error_code error;
-    const std::filesystem::path parent = std::filesystem::temp_directory_path(error);
+    const fs::path parent = fs::temp_directory_path(error);
     std::string name = (parent / "nacre-XXXXXX").string();
     if (error || !mkdtemp(name.data())) {
         throw Error(name, fmt::format("cannot be made: {}", error ? error.message() : std::strerror(errno)),
                     "a writable folder for temporary files (TMPDIR)");
     }
-    path_ = name;
+    return name;
 }
 
-TemporaryFolder::~TemporaryFolder()
-{
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-}
+} // namespace
+
+TemporaryFolder::TemporaryFolder() : Unfinished(makeTemporaryFolder()) {}
 
 } // namespace nacre

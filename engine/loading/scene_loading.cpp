@@ -9,6 +9,7 @@
 #include <glm/trigonometric.hpp>
 
 #include "engine/files/error.h"
+#include "engine/files/text_files.h"
 #include "engine/gpu/texture.h"
 #include "engine/lights/light_files.h"
 #include "engine/lights/light_rigs.h"
@@ -25,7 +26,7 @@ namespace {
 
 LightRig rigOfFile(const fs::path& file)
 {
-    const std::string extension = file.extension().string();
+    const std::string extension = lowerExtension(file);
     if (extension == ".exr" || extension == ".hdr") {
         return {file.stem().string(), lightsFromEnvironment(loadEnvironment(file), kEnvironmentLights)};
     }

@@ -12,6 +12,7 @@
 #include "engine/brdf/brdf_tabulation.h"
 #include "engine/brdf/rgl_brdf.h"
 #include "engine/files/error.h"
+#include "engine/files/text_files.h"
 #include "engine/materials/merl_file.h"
 #include "engine/surface/surface_material.h"
 
@@ -153,7 +154,7 @@ std::string kindOfFile(const std::string& specification, const std::string& kind
         }
     }
     for (const auto& [name, extension] : kKinds) {
-        if (std::filesystem::path(specification).extension() == extension) {
+        if (lowerExtension(specification) == extension) {
             return name;
         }
     }
@@ -187,7 +188,7 @@ NamedBrdf parseMaterial(const std::string& specification, const std::filesystem:
     if (kind == "merl-abc" || kind == "merl-sgd") {
         return {specification, parseFit(specification, kind, rest, fitsFolder)};
     }
-    if (std::filesystem::path(specification).extension() == ".brdf") {
+    if (lowerExtension(specification) == ".brdf") {
         refuse(specification, "holds scattered measurements (Cornell) and no BRDF between them",
                "nacre brdf, which examines it, or another material");
     }

@@ -10,6 +10,7 @@
 #include "engine/files/error.h"
 #include "engine/files/image.h"
 #include "engine/files/measures.h"
+#include "engine/files/text_files.h"
 
 namespace nacre {
 
@@ -35,6 +36,19 @@ bool isFloat(const ImageHeader& header)
     return header.pixelType == "float" || header.pixelType == "half" || header.pixelType == "double";
 }
 
+// Two-channel maps leave z to be told from x and y.
+bool holdsNoBlue(const Image& image)
+{
+    bool isAny = false;
+    for (size_t i = 0; i < image.values.size(); i += image.channels) {
+        isAny = isAny || image.values[i] > 0 || image.values[i + 1] > 0;
+        if (image.values[i + 2] > 0) {
+            return false;
+        }
+    }
+    return isAny;
+}
+
 } // namespace
 
 NormalMap loadNormalMap(const std::filesystem::path& file, NormalY normalY)
@@ -46,7 +60,8 @@ NormalMap loadNormalMap(const std::filesystem::path& file, NormalY normalY)
     }
     const bool coded = !isFloat(header);
     NormalMap map(image.width, image.height);
-    size_t found = 0, unit = 0;
+    const bool isTwoChannels = coded && holdsNoBlue(image);
+    size_t found = 0, unit = 0, away = 0;
     for (size_t i = 0; i < map.normals.size(); ++i) {
         const float* p = &image.values[i * image.channels];
         const glm::vec3 stored(p[0], p[1], p[2]);
@@ -60,6 +75,9 @@ NormalMap loadNormalMap(const std::filesystem::path& file, NormalY normalY)
         if (normalY == NormalY::dx) {
             n.y = -n.y;
         }
+        if (isTwoChannels) {
+            n.z = std::sqrt(std::max(0.0f, 1 - n.x * n.x - n.y * n.y));
+        }
         const float confidence = image.channels > 3 && !coded ? p[3] : 1.0f;
         const float size = glm::length(n);
         if (black || size < kShortestNormal || confidence <= 0) {
@@ -69,6 +87,7 @@ NormalMap loadNormalMap(const std::filesystem::path& file, NormalY normalY)
         map.confidence[i] = std::min(confidence, 1.0f);
         ++found;
         unit += std::abs(size - 1) < kUnitTolerance;
+        away += n.z < 0;
     }
     if (found == 0) {
         throw Error(file, "holds no normal", "a normal map: float x, y, z or integers n = 2 v - 1, black = no data");
@@ -79,12 +98,17 @@ NormalMap loadNormalMap(const std::filesystem::path& file, NormalY normalY)
                                 coded ? "2 v - 1" : "x, y, z", 100.0 * static_cast<double>(unit) / found),
                     "unit normals: float x, y, z or integers n = 2 v - 1");
     }
+    if (2 * away > found) {
+        throw Error(file,
+                    fmt::format("faces away in {:.0f} % of its pixels", 100.0 * static_cast<double>(away) / found),
+                    "normals towards the viewer: z, in blue, above 0");
+    }
     return map;
 }
 
 void saveNormalMap(const std::filesystem::path& file, const NormalMap& map)
 {
-    const bool coded = file.extension() != ".exr";
+    const bool coded = lowerExtension(file) != ".exr";
     Image image(map.width, map.height, coded ? 3 : 4);
     for (size_t i = 0; i < map.normals.size(); ++i) {
         if (map.confidence[i] <= 0) {

@@ -53,6 +53,7 @@ struct Surface {
     HorizonMap horizon;        // of the height, for cast shadows; empty: lights reach all that faces them. In no file
     std::vector<glm::vec3> places; // pixelPlaces, where they are known; in no file
     std::vector<CapturedLight> lights;
+    std::string transfer; // of the photographs: linear or srgb; empty: not known, or as they declare it themselves
     RadianceScale scale = RadianceScale::relative;
 };
 
@@ -67,6 +68,8 @@ inline glm::vec3 albedoFactor(const Surface& surface, size_t pixel)
     const float* a = surface.albedo.values.empty() ? nullptr : &surface.albedo.values[3 * pixel];
     return a == nullptr ? glm::vec3(1) : glm::vec3(a[0], a[1], a[2]);
 }
+
+inline constexpr const char* kSurfaceDescription = "surface.json";
 
 // surface.json, normals.exr, labels.png, albedo.exr (where estimated), height.exr (where known), material_N.exr and
 // material_N_coverage.exr, residual_NN.png and residual_weights.exr (where there is a residual layer).

@@ -94,6 +94,9 @@ nlohmann::json descriptionOf(const Surface& surface)
     if (!surface.height.values.empty()) {
         json["heights"] = "height.exr"; // "height" is the picture's
     }
+    if (!surface.transfer.empty()) {
+        json["transfer"] = surface.transfer;
+    }
     if (surface.castsShadows) {
         json["shadows"] = true;
     }
@@ -299,6 +302,9 @@ Surface surfaceOf(const JsonNode& root)
     if (const auto heights = root.find("heights")) {
         surface.height = loadBeside(*heights, surface, 1);
     }
+    if (const auto transfer = root.find("transfer")) {
+        surface.transfer = transfer->text();
+    }
     if (const auto shadows = root.find("shadows")) {
         surface.castsShadows = shadows->truth();
         if (surface.castsShadows && surface.height.values.empty()) {
@@ -339,13 +345,13 @@ void saveSurface(const fs::path& folder, const Surface& surface, bool replace)
     if (!surface.residual.empty()) {
         json["residual"] = saveResidual(to, surface.residual);
     }
-    writeTextFile(to / "surface.json", json.dump(2) + "\n");
+    writeTextFile(to / kSurfaceDescription, json.dump(2) + "\n");
     output.commit();
 }
 
 Surface loadSurface(const fs::path& folder)
 {
-    const fs::path file = folder / "surface.json";
+    const fs::path file = folder / kSurfaceDescription;
     if (!fs::is_directory(folder) || !fs::exists(file)) {
         throw Error(folder, "is not a surface", "a folder NAME.nacre that `nacre acquire` or `nacre target` wrote");
     }

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "engine/files/error.h"
+#include "engine/files/text_files.h"
 
 namespace nacre {
 namespace fs = std::filesystem;
@@ -20,7 +21,7 @@ size_t markOf(const std::string& specification)
 
 bool isSurfaceName(const fs::path& folder)
 {
-    return fs::is_directory(folder) || folder.extension() == ".nacre";
+    return fs::is_directory(folder) || lowerExtension(folder) == ".nacre";
 }
 
 // From 1; 0 where the text is no such number.

@@ -6,6 +6,7 @@
 #include <span>
 #include <utility>
 
+#include <assimp/GltfMaterial.h>
 #include <assimp/Importer.hpp>
 #include <assimp/config.h>
 #include <assimp/postprocess.h>
@@ -14,8 +15,10 @@
 #include <glm/geometric.hpp>
 
 #include "engine/files/error.h"
+#include "engine/files/text_files.h"
 #include "engine/files/whole_file.h"
 #include "engine/target/ply_size.h"
+#include "engine/target/texture_files.h"
 
 namespace nacre {
 namespace fs = std::filesystem;
@@ -26,14 +29,6 @@ constexpr const char* kReadable = ".obj, .ply, .gltf, .glb or .stl";
 // A triangle's height over its longest side below which it is a line: rounding of float coordinates.
 constexpr float kLeastHeight = 1e-7f;
 constexpr float kCreaseAngle = 60; // degrees between triangles over which normals are not smoothed
-
-std::string lowerExtension(const fs::path& file)
-{
-    std::string extension = file.extension().string();
-    std::transform(extension.begin(), extension.end(), extension.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return extension;
-}
 
 glm::vec3 vec3Of(const aiVector3D& v)
 {
@@ -87,18 +82,86 @@ NormalMap embeddedNormalMap(const fs::path& mesh, const aiTexture& texture, Norm
     }
 }
 
+// glTF's normalTexture.scale: of x and y.
+void scaleNormals(NormalMap& map, float scale)
+{
+    for (size_t i = 0; i < map.normals.size(); ++i) {
+        if (map.confidence[i] > 0) {
+            map.normals[i] = glm::normalize(map.normals[i] * glm::vec3(scale, scale, 1));
+        }
+    }
+}
+
+std::shared_ptr<const NormalMap> namedNormalMap(const fs::path& mesh, const aiScene& scene, const aiString& name,
+                                                NormalY normalY)
+{
+    const aiTexture* texture = scene.GetEmbeddedTexture(name.C_Str());
+    NormalMap map =
+        texture ? embeddedNormalMap(mesh, *texture, normalY) : loadNormalMap(textureFile(mesh, name.C_Str()), normalY);
+    return std::make_shared<NormalMap>(std::move(map));
+}
+
+// The map_Bump of an OBJ's material is a normal map by the habit of some programs, a height map, which does not count,
+// by the format.
+std::shared_ptr<const NormalMap> bumpNormalMap(const fs::path& mesh, const aiMaterial& material, NormalY normalY)
+{
+    aiString name;
+    if (material.GetTexture(aiTextureType_HEIGHT, 0, &name) != aiReturn_SUCCESS) {
+        return nullptr;
+    }
+    try {
+        return std::make_shared<const NormalMap>(loadNormalMap(textureFile(mesh, name.C_Str()), normalY));
+    } catch (const Error&) {
+        return nullptr;
+    }
+}
+
 // The tangent-space normal map that a material names, beside the mesh or within the file; null where it names none.
-// Bump maps (heights) do not count.
 std::shared_ptr<const NormalMap> materialNormalMap(const fs::path& mesh, const aiScene& scene,
                                                    const aiMaterial& material, NormalY normalY)
 {
     aiString name;
     if (material.GetTexture(aiTextureType_NORMALS, 0, &name) != aiReturn_SUCCESS) {
-        return nullptr;
+        return bumpNormalMap(mesh, material, normalY);
     }
-    const aiTexture* texture = scene.GetEmbeddedTexture(name.C_Str());
-    return std::make_shared<const NormalMap>(texture ? embeddedNormalMap(mesh, *texture, normalY)
-                                                     : loadNormalMap(mesh.parent_path() / name.C_Str(), normalY));
+    const std::shared_ptr<const NormalMap> map = namedNormalMap(mesh, scene, name, normalY);
+    ai_real scale = 1;
+    if (material.Get(AI_MATKEY_GLTF_TEXTURE_SCALE(aiTextureType_NORMALS, 0), scale) != aiReturn_SUCCESS || scale == 1) {
+        return map;
+    }
+    NormalMap scaled = *map;
+    scaleNormals(scaled, scale);
+    return std::make_shared<const NormalMap>(std::move(scaled));
+}
+
+// KHR_texture_transform, as Assimp turns it about for its v, which counts up: offset + scale * (u, 1 - v) in glTF's.
+void moveUvs(const fs::path& file, const aiUVTransform& by, aiMesh& mesh)
+{
+    if (by.mRotation != 0) {
+        throw Error(file, "turns the coordinates of its normal map (KHR_texture_transform)",
+                    "a mesh whose coordinates are turned themselves");
+    }
+    for (unsigned i = 0; i < mesh.mNumVertices; ++i) {
+        aiVector3D& uv = mesh.mTextureCoords[0][i];
+        uv.x = by.mTranslation.x + by.mScaling.x * uv.x;
+        uv.y = by.mTranslation.y + by.mScaling.y * uv.y;
+    }
+}
+
+// The texture coordinates that the material's normal map lies in become the first set, which is all that is read.
+void takeNormalMapsUvs(const fs::path& file, const aiScene& scene, aiMesh& mesh)
+{
+    int set = 0;
+    aiUVTransform transform;
+    const aiMaterial& material = *scene.mMaterials[mesh.mMaterialIndex];
+    if (material.Get(AI_MATKEY_UVWSRC(aiTextureType_NORMALS, 0), set) == aiReturn_SUCCESS && set > 0 &&
+        mesh.HasTextureCoords(static_cast<unsigned>(set))) {
+        std::swap(mesh.mTextureCoords[0], mesh.mTextureCoords[set]);
+    }
+    if (mesh.HasTextureCoords(0) &&
+        material.Get(AI_MATKEY_UVTRANSFORM(aiTextureType_NORMALS, 0), transform) == aiReturn_SUCCESS) {
+        moveUvs(file, transform, mesh);
+    }
 }
 
 bool isDegenerate(const aiVector3D& a, const aiVector3D& b, const aiVector3D& c)
@@ -297,6 +360,9 @@ Mesh loadMesh(const fs::path& file, const MeshFileOptions& options)
     if (lowerExtension(file) == ".ply") {
         requireWholePly(file);
     }
+    if (lowerExtension(file) == ".gltf" || lowerExtension(file) == ".glb") {
+        requireKnownExtensions(file);
+    }
     Assimp::Importer importer;
     importer.SetPropertyFloat(AI_CONFIG_PP_GSN_MAX_SMOOTHING_ANGLE, kCreaseAngle);
     const aiScene* read = importer.ReadFile(file.string(), aiProcess_Triangulate);
@@ -305,6 +371,7 @@ Mesh loadMesh(const fs::path& file, const MeshFileOptions& options)
     }
     Reader reader{file, *read, std::vector<std::shared_ptr<const NormalMap>>(read->mNumMaterials)};
     for (unsigned i = 0; i < read->mNumMeshes; ++i) {
+        takeNormalMapsUvs(file, *read, *read->mMeshes[i]);
         separateTriangles(file, *read->mMeshes[i], reader.mesh);
         reader.withUvs = reader.withUvs || read->mMeshes[i]->HasTextureCoords(0);
     }

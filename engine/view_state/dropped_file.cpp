@@ -4,6 +4,7 @@
 
 #include "engine/files/error.h"
 #include "engine/files/image.h"
+#include "engine/files/text_files.h"
 #include "engine/files/whole_file.h"
 
 namespace nacre {
@@ -34,7 +35,7 @@ Dropped kindOf(const std::filesystem::path& file)
     if (std::filesystem::is_directory(file)) {
         return kindOfFolder(file);
     }
-    const std::string extension = file.extension().string();
+    const std::string extension = lowerExtension(file);
     if (extension == ".json") {
         return Dropped::state;
     }

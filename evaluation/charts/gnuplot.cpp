@@ -1,6 +1,7 @@
 #include "evaluation/charts/gnuplot.h"
 
 #include <cerrno>
+#include <csignal>
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -46,11 +47,18 @@ int runGnuplot(const fs::path& folder, const std::string& script)
     for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
         posix_spawn_file_actions_addopen(&actions, stream, "/dev/null", O_RDWR, 0);
     }
+    posix_spawnattr_t attributes; // a signal that the program holds back still ends gnuplot
+    posix_spawnattr_init(&attributes);
+    sigset_t none;
+    sigemptyset(&none);
+    posix_spawnattr_setsigmask(&attributes, &none);
+    posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGMASK);
     std::string program = "gnuplot", defaults = "--default-settings", file = script;
     char* arguments[] = {program.data(), defaults.data(), file.data(), nullptr};
     pid_t child = 0;
-    const int failure = posix_spawnp(&child, "gnuplot", &actions, nullptr, arguments, environ);
+    const int failure = posix_spawnp(&child, "gnuplot", &actions, &attributes, arguments, environ);
     posix_spawn_file_actions_destroy(&actions);
+    posix_spawnattr_destroy(&attributes);
     if (failure != 0) {
         return 127;
     }

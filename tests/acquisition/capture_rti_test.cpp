@@ -61,6 +61,81 @@ TEST_F(CaptureRti, OtherExtensionsAndCaseAreFoundByStem)
     EXPECT_EQ(load().photographs[3].name, "PHOTO 4.tif");
 }
 
+TEST_F(CaptureRti, HiddenFilesAndFoldersThatCannotBeReadStopNobody)
+{
+    writeText(folder_ / "._lights.lp", std::string("\0\5\26\7", 4));
+    fs::create_directory(folder_ / "lost+found");
+    fs::permissions(folder_ / "lost+found", fs::perms::none);
+    EXPECT_EQ(load().photographs.size(), 10u);
+    fs::permissions(folder_ / "lost+found", fs::perms::owner_all);
+}
+
+// The same name in both Unicode forms, the list in every encoding that people have.
+TEST_F(CaptureRti, NamesAndListsInAnyEncoding)
+{
+    const std::string composed = "M\xc3\xbcnze", decomposed = "Mu\xcc\x88nze";
+    for (int i = 1; i <= 3; ++i) {
+        writePicture(folder_ / (decomposed + std::to_string(i) + ".png"), i);
+    }
+    const auto lines = [](const std::string& name) {
+        return "3\n" + name + "1.png 1 0 1\n" + name + "2.png 0 1 1\n" + name + "3.png 0 0 1\n";
+    };
+    std::string wide = "\xff\xfe";
+    for (const char c : lines("M\xfcnze")) { // Latin-1 is UTF-16's beginning
+        wide += std::string{c, '\0'};
+    }
+    for (const std::string& text : {lines(composed), lines(decomposed), "\xef\xbb\xbf" + lines(composed), wide,
+                                    lines("M\xfcnze"), lines("M\xc3\x9cNZE")}) {
+        writeText(folder_ / "lights.lp", text);
+        const Capture capture = load();
+        ASSERT_EQ(capture.photographs.size(), 3u);
+        EXPECT_EQ(capture.photographs[1].name, decomposed + "2.png");
+    }
+}
+
+TEST_F(CaptureRti, OfSeveralFoldersTheOneThatTheListNames)
+{
+    std::string list = "3\n";
+    for (int i = 1; i <= 3; ++i) {
+        const std::string name = "shot" + std::to_string(i) + ".png";
+        for (const char* below : {"cropped-files", "jpeg-exports"}) {
+            fs::create_directories(folder_ / below);
+            writePicture(folder_ / below / name, i);
+        }
+        list += "C:\\my rti\\jpeg-exports\\" + name + " 1 0 " + std::to_string(i) + "\n";
+    }
+    writeText(folder_ / "lights.lp", list);
+    EXPECT_EQ(load().photographs[2].exposures[0].file, folder_ / "jpeg-exports/shot3.png");
+}
+
+TEST(CapturePictures, AnyFolderWithARig)
+{
+    const TempFolder folder;
+    std::string rig = "3\n";
+    for (int i : {1, 2, 10}) {
+        writePicture(folder / ("c/DSC_" + std::to_string(i) + ".png"), i);
+        rig += "dome" + std::to_string(i) + ".png 0 " + std::to_string(i) + " 1\n";
+    }
+    writeText(folder / "rig.lp", rig);
+    expectError([&] { loadCapture(folder / "c"); }, {"holds no capture", "--rig"});
+    CaptureOptions options;
+    options.rig = folder / "rig.lp";
+    const Capture capture = loadCapture(folder / "c", options);
+    EXPECT_EQ(capture.layout, CaptureLayout::pictures);
+    EXPECT_EQ(capture.photographs[2].name, "DSC_10.png");
+    EXPECT_GT(capture.lights[2].direction.y, capture.lights[1].direction.y);
+}
+
+TEST_F(CaptureRti, MasksMayLieInAlpha)
+{
+    Image mask(kTestWidth, kTestHeight, 4, 1.0f);
+    for (int x = 0; x < kTestWidth; ++x) {
+        mask.at(x, 0, 3) = 0;
+    }
+    saveImage(folder_ / "mask.png", mask, PixelType::uint8);
+    EXPECT_EQ(load().maskPixels, size_t{kTestWidth} * (kTestHeight - 1));
+}
+
 TEST_F(CaptureRti, PhotographsBelowTheList)
 {
     fs::create_directories(folder_ / "jpeg-exports");

@@ -32,7 +32,7 @@ TEST(CaptureUw, IsFoundWithItsMaskAndInNaturalOrder)
     EXPECT_TRUE(capture.lights.empty());
     EXPECT_TRUE(capture.truthNormals.empty());
     EXPECT_EQ(capture.curve, TransferCurve::linear);
-    EXPECT_EQ(capture.curveSource, "assumed");
+    EXPECT_EQ(capture.curveSource, "assumed: the files declare none");
 }
 
 TEST(CaptureUw, TakesPicturesOfAnyKindAndMixedExtensions)

@@ -62,8 +62,8 @@ TEST(ImageFiles, LinearIsSaidAndTheReadersGuessDoesNotCount)
     saveImage(folder / "linear.png", gradient(4, 4, 3), PixelType::uint16);
     saveImage(folder / "display.png", gradient(4, 4, 3), PixelType::uint8);
     EXPECT_TRUE(readImageHeader(folder / "linear.png").curveIsDeclared);
-    EXPECT_EQ(readImageHeader(folder / "linear.png").declaredCurve, TransferCurve::linear);
-    EXPECT_EQ(readImageHeader(folder / "display.png").declaredCurve, TransferCurve::srgb);
+    EXPECT_EQ(readImageHeader(folder / "linear.png").curve, TransferCurve::linear);
+    EXPECT_EQ(readImageHeader(folder / "display.png").curve, TransferCurve::srgb);
 }
 
 TEST(ImageFiles, RowsAreThePictureAndSrgbIsDecodedWhereAsked)
@@ -235,6 +235,25 @@ TEST(SurfaceFiles, DamageIsNamed)
     expectError([&] { loadSurface(folder / "s.nacre"); }, {"surface.json: version is 99", "at most 1"});
     writeText(folder / "s.nacre" / "surface.json", "{");
     expectError([&] { loadSurface(folder / "s.nacre"); }, {"surface.json: is not JSON"});
+}
+
+TEST(NormalMaps, OfTwoChannelsAreCompletedAndThoseThatFaceAwayRefused)
+{
+    const TempFolder folder;
+    Image codes(4, 4, 3, 0.0f);
+    for (size_t i = 0; i < codes.pixelCount(); ++i) {
+        codes.values[3 * i] = 0.8f; // x = 0.6
+        codes.values[3 * i + 1] = 0.5f;
+    }
+    saveImage(folder / "two.png", codes, PixelType::uint16);
+    const NormalMap map = loadNormalMap(folder / "two.png", NormalY::gl);
+    EXPECT_NEAR(map.normals[5].x, 0.6f, 1e-3f);
+    EXPECT_NEAR(map.normals[5].z, 0.8f, 1e-3f);
+    for (size_t i = 0; i < codes.pixelCount(); ++i) {
+        codes.values[3 * i + 2] = 0.1f; // z = -0.8
+    }
+    saveImage(folder / "away.png", codes, PixelType::uint16);
+    expectError([&] { loadNormalMap(folder / "away.png", NormalY::gl); }, {"away.png", "faces away in 100 %"});
 }
 
 TEST(NormalMaps, CodedAndFloatFilesRoundTripAndGreenFlips)

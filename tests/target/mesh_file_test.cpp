@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
+#include "engine/files/image.h"
 #include "engine/files/measures.h"
 #include "engine/target/mesh_file.h"
 #include "tests/support/expect_error.h"
@@ -256,6 +257,98 @@ TEST_F(MeshFileTest, SmoothNormalsOfASphereAreItsOwn)
     // Rings of 3 degrees; next to the poles triangles on one side are larger.
     EXPECT_LT(worstOfSphere(loadMesh(write("ball.obj", obj))), 0.5);
     EXPECT_LT(worstOfSphere(loadMesh(write("ball.ply", ply))), 0.5);
+}
+
+// A square whose material has `material`, and the map's mean |x| where it is drawn with it; -1 without a map.
+class MeshMapTest : public MeshFileTest {
+protected:
+    void SetUp() override
+    {
+        Image map(4, 4, 3, 0.5f);
+        for (size_t i = 0; i < map.pixelCount(); ++i) {
+            map.values[3 * i] = 0.8f;
+            map.values[3 * i + 2] = 0.9f;
+        }
+        fs::create_directory(folder_ / "tex");
+        for (const char* name : {"normal.png", "normal map.png", "tex/normal.png"}) {
+            saveImage(folder_ / name, map, PixelType::uint8);
+        }
+    }
+    float lean(const fs::path& file)
+    {
+        const Mesh mesh = loadMesh(file, {});
+        return mesh.parts[0].normalMap ? mesh.parts[0].normalMap->normals[0].x : -1;
+    }
+    float leanOfMtl(const std::string& line)
+    {
+        write("m.mtl", "newmtl m\n" + line + "\n");
+        return lean(write(
+            "m.obj", "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nusemtl m\nf 1/1 2/2 3/3\n"));
+    }
+    // Two sets of UVs: the corners, and half of them.
+    fs::path gltf(const std::string& texture, const std::string& uri = "normal.png", const std::string& more = "")
+    {
+        std::string data;
+        for (const float v : {0.f, 0.f, 0.f, 1.f, 0.f, 0.f, 1.f,  1.f, 0.f,  0.f, 0.f,
+                              1.f, 0.f, 1.f, 1.f, 0.f, 0.f, 0.5f, 0.f, 0.5f, 0.5f}) {
+            data += bytesOf(v);
+        }
+        write("m.bin", data);
+        return write("m.gltf", fmt::format(R"({{"asset": {{"version": "2.0"}}, "scene": 0, "scenes": [{{"nodes": [0]}}],
+            "nodes": [{{"mesh": 0}}], "meshes": [{{"primitives": [{{"attributes": {{"POSITION": 0, "TEXCOORD_0": 1,
+            "TEXCOORD_1": 2}}, "material": 0}}]}}], "materials": [{{"normalTexture": {}}}], "textures": [{{"source": 0}}],
+            "images": [{{"uri": "{}"}}], "buffers": [{{"byteLength": 84, "uri": "m.bin"}}], "bufferViews": [
+            {{"buffer": 0, "byteOffset": 0, "byteLength": 36}}, {{"buffer": 0, "byteOffset": 36, "byteLength": 24}},
+            {{"buffer": 0, "byteOffset": 60, "byteLength": 24}}], "accessors": [
+            {{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3", "min": [0, 0, 0], "max": [1, 1, 0]}},
+            {{"bufferView": 1, "componentType": 5126, "count": 3, "type": "VEC2"}},
+            {{"bufferView": 2, "componentType": 5126, "count": 3, "type": "VEC2"}}]{}}})",
+                                           texture, uri, more));
+    }
+};
+
+TEST_F(MeshMapTest, MtlNamesNormalMapsInSeveralWays)
+{
+    const float there = leanOfMtl("map_Kn normal.png");
+    EXPECT_NEAR(there, 0.6, 0.02);
+    for (const char* line :
+         {"norm normal.png", "map_Bump -bm 1.000000 normal.png", "map_Kn tex\\normal.png", "map_Kn Normal.PNG"}) {
+        EXPECT_EQ(leanOfMtl(line), there) << line;
+    }
+    saveImage(folder_ / "height.png", Image(4, 4, 1, 0.5f), PixelType::uint8);
+    EXPECT_EQ(leanOfMtl("map_Bump height.png"), -1);
+    expectError([&] { leanOfMtl("map_Kn missing.png"); }, {"missing.png", "does not exist"});
+}
+
+TEST_F(MeshMapTest, GltfScaleSetAndTransformCount)
+{
+    EXPECT_NEAR(lean(gltf(R"({"index": 0})")), 0.6, 0.02);
+    EXPECT_NEAR(lean(gltf(R"({"index": 0})", "normal%20map.png")), 0.6, 0.02);
+    EXPECT_NEAR(lean(gltf(R"({"index": 0, "scale": 0})")), 0, 1e-6);
+    EXPECT_NEAR(loadMesh(gltf(R"({"index": 0})"), {}).uvs[1].x, 1, 1e-6);
+    EXPECT_NEAR(loadMesh(gltf(R"({"index": 0, "texCoord": 1})"), {}).uvs[1].x, 0.5, 1e-6);
+    const std::string moved =
+        R"({"index": 0, "extensions": {"KHR_texture_transform": {"offset": [0.25, 0.125], "scale": [0.5, 0.25]}}})";
+    const Mesh mesh = loadMesh(
+        gltf(moved, "normal.png",
+             R"(, "extensionsUsed": ["KHR_texture_transform"], "extensionsRequired": ["KHR_texture_transform"])"),
+        {});
+    const Mesh plain = loadMesh(gltf(R"({"index": 0})"), {});
+    for (size_t i = 0; i < 3; ++i) {
+        EXPECT_NEAR(mesh.uvs[i].x, 0.25 + 0.5 * plain.uvs[i].x, 1e-6);
+        EXPECT_NEAR(1 - mesh.uvs[i].y, 0.125 + 0.25 * (1 - plain.uvs[i].y), 1e-6); // glTF counts v down
+    }
+}
+
+TEST_F(MeshMapTest, RequiredExtensionsThatAreNotKnownAreNamed)
+{
+    for (const char* name : {"KHR_draco_mesh_compression", "EXT_meshopt_compression", "KHR_texture_basisu"}) {
+        expectError(
+            [&] {
+                lean(gltf(R"({"index": 0})", "normal.png", fmt::format(R"(, "extensionsRequired": ["{}"])", name)));
+            },
+            {"m.gltf", name});
+    }
 }
 
 } // namespace
