@@ -51,7 +51,8 @@ void approach(const Capture& capture, const Observations& seen, PlaceSearch sear
         moveSample(seen, prepared);
         clock.enter("choosing");
         const ChosenMethod chosen = chooseMethod(prepared.reconciled.sample, prepared.checked, options.normals);
-        NormalMap map = wholeMap(chosen, capture, clock, progress, prepared);
+        NormalMap map = nextGuess(prepared.guess.normals, wholeMap(chosen, capture, clock, progress, prepared),
+                                  *prepared.nearField);
         Image height = heightBefore(map, *prepared.nearField, prepared.threads);
         prepared.guess = {std::move(map), std::move(height)};
     }

@@ -80,6 +80,7 @@ void explainSurface(const PlaceBench& bench, PlaceTrial& trial)
             map.normals[seen.pixels[p]] = local.toCamera(seen.pixels[p], fit.pixels[p].normal);
             map.confidence[seen.pixels[p]] = fit.pixels[p].confidence;
         }
+        map = nextGuess(trial.guess.normals, std::move(map), trial.near);
         Image height = heightBefore(map, trial.near, 1);
         trial.guess = {std::move(map), std::move(height)};
     }

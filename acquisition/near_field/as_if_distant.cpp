@@ -68,6 +68,18 @@ Observations asIfDistant(Observations block, const LocalLights& lights, std::spa
     return block;
 }
 
+NormalMap nextGuess(const NormalMap& guess, NormalMap found, const NearField& near)
+{
+    const size_t pixels = near.lights.empty() ? 0 : guess.normals.size();
+    for (size_t i = 0; i < pixels; ++i) {
+        const glm::vec3 sum = guess.normals[i] + found.normals[i];
+        if (guess.confidence[i] > 0 && found.confidence[i] > 0 && glm::length(sum) > 0) {
+            found.normals[i] = glm::normalize(sum);
+        }
+    }
+    return found;
+}
+
 namespace {
 
 // A point is P = C + s r: C the camera at (0, 0, d), r = (u, v, -d) the ray through the plane at (u, v), s = 1 - h / d

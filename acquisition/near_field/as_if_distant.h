@@ -23,6 +23,11 @@ std::vector<glm::vec3> localNormals(const Observations& block, const LocalLights
 Observations asIfDistant(Observations block, const LocalLights& lights, std::span<const glm::vec3> normals,
                          int threads);
 
+// The next guess of the normals after those that were found by the last one. Before near lights it is half way between
+// them: where light grazes, the shading factor n.lr / n.l goes further beyond the truth than the guess is off, and
+// surfaces found by each other swing about it. A lens alone turns lights by less, and whole steps creep up to it.
+NormalMap nextGuess(const NormalMap& guess, NormalMap found, const NearField& near);
+
 // The height of a surface before near's camera from its normals in the camera frame: pixels above the plane of its
 // outline, whose mean is 0; 0 where there is no normal.
 Image heightBefore(const NormalMap& normals, const NearField& near, int threads);

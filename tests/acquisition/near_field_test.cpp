@@ -217,6 +217,10 @@ TEST(NearFieldSlow, TheChainRelightsUnderNearLights)
                       distant = acquire(loadCapture(folder / "c", far), acquiring, kSilent);
     EXPECT_NEAR(placed.surface.lights[7].light.distance, 3, 0.3);
     EXPECT_FALSE(placed.surface.height.values.empty());
+    const Capture capture = loadCapture(folder / "c");
+    const NormalMap truth = windowedNormals(loadTrueNormals(capture.truthNormals), capture, capture.truthNormals);
+    // 1.1; 2.5 where each guess is the last one's answer, and swings.
+    EXPECT_LT(angularError(placed.estimate.normals, truth, capture.mask).mean, 1.6);
     EXPECT_EQ(distant.surface.lights[7].light.distance, std::numeric_limits<float>::infinity());
     EXPECT_TRUE(distant.surface.height.values.empty());
     // Of lights left out, by the BRDF alone.
