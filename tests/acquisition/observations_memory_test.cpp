@@ -125,7 +125,7 @@ TEST_F(ObservationsCopies, PicturesThatCannotBeStreamedAreCopiedAndReadTheSame)
 {
     for (const std::string extension : {".tga", ".dpx", ".hdr"}) { // 8 bits, 16 bits, floats
         Capture capture = writeCapture(folder_ / extension, 4, 100, 75, extension);
-        for (const TransferCurve curve : {TransferCurve::linear, TransferCurve::srgb}) {
+        for (const TransferCurve& curve : {TransferCurve::linear, TransferCurve::srgb}) {
             capture.curve = curve;
             const AllObservations whole = readAll(capture, 2, ObservationReader::kDefaultByteBudget);
             EXPECT_EQ(copies(), 0u);

@@ -171,7 +171,7 @@ TEST_F(Export, ReplacesWithForceAloneAndNothingOfOthers)
     EXPECT_EQ(readTextFile(path("a.ptm")), "mine");
     EXPECT_EQ(run({"--ptm", path("a.ptm"), "--lights", "18", "--force"}).exitCode, 0);
     writeText(folder_ / "web/diary.txt", "mine");
-    expectOneLine(run({"--rti-web", path("web"), "--lights", "18", "--force"}), Error::kData, {"something else"});
+    expectOneLine(run({"--rti-web", path("web"), "--lights", "18", "--force"}), Error::kData, {"holds no info.json"});
     EXPECT_EQ(readTextFile(path("web/diary.txt")), "mine");
     expectFolderHolds({"a.ptm", "web"});
 }
