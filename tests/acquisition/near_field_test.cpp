@@ -220,7 +220,7 @@ TEST(NearFieldSlow, TheChainRelightsUnderNearLights)
     const Capture capture = loadCapture(folder / "c");
     const NormalMap truth = windowedNormals(loadTrueNormals(capture.truthNormals), capture, capture.truthNormals);
     // 1.1; 2.5 where each guess is the last one's answer, and swings.
-    EXPECT_LT(angularError(placed.estimate.normals, truth, capture.mask).mean, 1.6);
+    EXPECT_LT(angularError(placed.surface.normals, truth, capture.mask).mean, 1.6);
     EXPECT_EQ(distant.surface.lights[7].light.distance, std::numeric_limits<float>::infinity());
     EXPECT_TRUE(distant.surface.height.values.empty());
     // Of lights left out, by the BRDF alone.
