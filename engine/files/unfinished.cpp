@@ -1,5 +1,6 @@
 #include "engine/files/unfinished.h"
 
+#include <chrono>
 #include <csignal>
 #include <set>
 #include <thread>
@@ -12,6 +13,8 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr int kSignals[] = {SIGINT, SIGTERM, SIGHUP};
+// Whoever ends a program often sends a signal to it and to its group: such two are one.
+constexpr std::chrono::milliseconds kSameSignal(100);
 constexpr int kRemovals = 20; // threads that are still writing add files to a folder that is being removed
 
 struct Registry {
@@ -51,6 +54,16 @@ void removeAll(const fs::path& path)
     _exit(128 + signal);
 }
 
+void forgetTwin(int signal)
+{
+    std::this_thread::sleep_for(kSameSignal);
+    sigset_t one;
+    sigemptyset(&one);
+    sigaddset(&one, signal);
+    const timespec now{};
+    sigtimedwait(&one, nullptr, &now);
+}
+
 void waitForSignals(sigset_t signals)
 {
     int signal = 0;
@@ -65,6 +78,7 @@ void waitForSignals(sigset_t signals)
             if (action.sa_flags & SA_RESETHAND) {
                 std::signal(signal, SIG_DFL);
             }
+            forgetTwin(signal);
         }
     }
 }
