@@ -40,8 +40,9 @@ set xlabel "seconds of the acquisition"
 set ylabel "colour PSNR of photographs left out, dB"
 set key outside right top
 set grid
-set offsets graph 0.12, graph 0.22, graph 0.08, graph 0.08
+set offsets graph 0.15, graph 0.22, graph 0.08, graph 0.08
 plot for [name in "bearPNG hermes_plaster bunny_matt"] \
     "< grep ^".name." $work/parts.csv" using 3:4 with linespoints pt 7 lw 2 title name noenhanced, \
-    "$work/parts.csv" using 3:4:2 every ::1 with labels left offset 0.6,-0.6 font "sans,10" notitle
+    "< grep '+' $work/parts.csv" using 3:4:2 with labels left offset 0.6,-0.6 font "sans,10" notitle, \
+    "< grep BRDF $work/parts.csv" using 3:4:2 with labels right offset -0.4,0.6 font "sans,10" notitle
 EOF
