@@ -8,6 +8,7 @@
 #include "shared/ball.h"
 #include "shared/coverage.h"
 #include "shared/layout.h"
+#include "shared/lens.h"
 #include "shared/near_light.h"
 #include "shared/shading.h"
 
@@ -17,7 +18,7 @@ layout(constant_id = kConstantOneMaterial) const bool kOneMaterial = false;
 layout(constant_id = kConstantPacked) const bool kPacked = false;
 layout(constant_id = kConstantCoverage) const bool kCoverage = false;
 layout(constant_id = kConstantShadows) const bool kShadows = false;
-layout(constant_id = kConstantNear) const bool kNear = false;
+layout(constant_id = kConstantPlaced) const bool kPlaced = false;
 
 layout(binding = kBindingNormals) uniform sampler2D normals;
 layout(binding = kBindingAlbedo) uniform sampler2D albedos;
@@ -36,11 +37,11 @@ layout(scalar, push_constant) uniform Constants
 layout(location = 0) out vec4 radiance;
 
 // RGB in 1/sr and its expected error; m is the normal in the light's frame.
-vec4 brdf(LightFrame light, vec3 n, vec3 m)
+vec4 brdf(LightFrame light, vec3 view, vec3 n, vec3 m)
 {
     vec3 unit;
     if (kCoordinates == kNatural) {
-        unit = unitFromNatural(naturalFromDirections(n, lightDirection(light), constants.view.xyz));
+        unit = unitFromNatural(naturalFromDirections(n, lightDirection(light), view));
     } else {
         unit = unitInFrame(light, m, constants.tableSize.w);
     }
@@ -48,13 +49,13 @@ vec4 brdf(LightFrame light, vec3 n, vec3 m)
 }
 
 // The light as the pixel meets it.
-LightFrame metLight(int i, vec3 place)
+LightFrame metLight(int i, vec3 view, vec3 place)
 {
-    if (!kNear) {
+    if (!kPlaced) {
         return lights[i];
     }
     vec4 met = lightFromPlace(lightDirection(lights[i]), constants.nearness[i], place);
-    return lightFrame(met.xyz, constants.view.xyz, met.w * lights[i].irradiance.rgb);
+    return lightFrame(met.xyz, view, met.w * lights[i].irradiance.rgb);
 }
 
 // Share of the light's radiance that no height in its way takes.
@@ -65,9 +66,12 @@ float shareOfLight(vec4 lookup, ivec2 pixel)
     return visibility(lookup, code, nextCode);
 }
 
-vec4 lookupOf(int i, LightFrame light)
+vec4 lookupOf(int i, LightFrame light, vec3 place)
 {
-    return kNear ? horizonLookup(lightDirection(light), textureSize(horizons, 0).z) : constants.horizon[i];
+    if (!kPlaced) {
+        return constants.horizon[i];
+    }
+    return horizonLookup(directionInPicture(constants.view, place, lightDirection(light)), textureSize(horizons, 0).z);
 }
 
 void main()
@@ -78,18 +82,19 @@ void main()
     vec3 n = kPacked ? normalFromDisc(kPackedReach * normal.xy) : normal.xyz;
     bool hasNormal = kPacked ? isPackedNormal(normal.xy) : normal.w > 0.0;
     bool hasMaterial = kOneMaterial || int(albedo.w) == constants.material;
-    if (!hasNormal || !hasMaterial || dot(n, constants.view.xyz) <= 0.0) {
+    vec3 place = kPlaced ? texelFetch(places, pixel, 0).xyz : vec3(0.0);
+    vec3 view = kPlaced ? viewFromPlace(constants.view, place) : constants.view.xyz;
+    if (!hasNormal || !hasMaterial || dot(n, view) <= 0.0) {
         discard;
     }
-    vec3 place = kNear ? texelFetch(places, pixel, 0).xyz : vec3(0.0);
     vec3 sum = vec3(0.0);
     float beyond = 0.0;
     [[unroll]] for (int i = 0; i < kLightCount; ++i) {
-        LightFrame light = metLight(i, place);
+        LightFrame light = metLight(i, view, place);
         vec3 m = normalInFrame(light, n);
-        vec4 f = brdf(light, n, m);
+        vec4 f = brdf(light, view, n, m);
         float nDotL = cosineInFrame(light, m);
-        float arriving = kShadows ? shareOfLight(lookupOf(i, light), pixel) : 1.0;
+        float arriving = kShadows ? shareOfLight(lookupOf(i, light, place), pixel) : 1.0;
         vec3 added = arriving * radianceFromBrdf(f.rgb, light.irradiance.rgb, nDotL);
         sum += added;
         if (kCoverage) {

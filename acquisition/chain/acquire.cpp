@@ -122,11 +122,22 @@ Surface surfaceOf(const Capture& capture, const PreparedCapture& prepared, Norma
     for (size_t i = 0; i < lights.size(); ++i) {
         surface.lights.push_back({capture.photographs[prepared.given[i]].name, lights[i]});
     }
-    if (anyIsNear(lights)) { // they are drawn by it
+    if (prepared.nearField) { // it is drawn by them
+        surface.camera = cameraPlaceOf(*prepared.nearField, extentOf(capture).width);
         surface.height = prepared.guess.height;
         surface.places = pixelPlaces(surface);
     }
     return surface;
+}
+
+// Places and predictions of a surface that has got another height.
+void standOnHeight(Surface& surface, ResidualRows& rows)
+{
+    if (isPlaced(surface)) {
+        surface.places.clear();
+        surface.places = pixelPlaces(surface);
+        rows.predicted = predictedRows(LightBalls(surface, 0, 1), rows.pixels, surface.lights.size());
+    }
 }
 
 // Cast shadows and the residual layer: what lights left out say for.
@@ -148,6 +159,7 @@ void explainLeftOut(const Measurement& measurement, ObservationBlocks& blocks, S
             result.surface.height = std::move(shadows.height);
             result.surface.horizon = std::move(shadows.horizon);
             result.surface.castsShadows = true;
+            standOnHeight(result.surface, leftOut.rows);
         }
     }
     progress("residual", 0);

@@ -115,6 +115,7 @@ Surface remeasured(const Measurement& measurement, Observations sample, std::spa
     surface.labels = std::move(row.labels);
     surface.albedo = std::move(row.albedo);
     surface.lights = measurement.surface.lights;
+    surface.camera = measurement.surface.camera;
     return surface;
 }
 

@@ -116,7 +116,16 @@ std::optional<NearField> nearFieldOf(const Capture& capture, const std::vector<s
     if (isHarmless(nearest)) {
         near.lights.clear();
     }
-    return near.lights.empty() && !capture.fieldOfView ? std::nullopt : std::optional(near);
+    const bool hasLens = !isHarmless(near.cameraDistance / width);
+    return near.lights.empty() && !hasLens ? std::nullopt : std::optional(near);
+}
+
+std::optional<glm::vec3> cameraPlaceOf(const NearField& near, double width)
+{
+    if (std::isinf(near.cameraDistance)) {
+        return std::nullopt;
+    }
+    return glm::vec3(glm::dvec3(near.axis.x - near.origin.x, near.origin.y - near.axis.y, near.cameraDistance) / width);
 }
 
 NearField cameraOf(const Capture& capture)

@@ -29,12 +29,16 @@ struct NearField {
 ObjectExtent extentOf(const Capture& capture);
 
 // What the capture itself says of `lights`, which are those of `photographs`: their places, or one distance of all from
-// the object's middle; its field of view. None where the camera is orthographic and lights are distant, or so far that
-// their directions turn by less than kHarmlessTurn over the object. Throws Error (data) where a light stands inside the
-// object, behind it, or so far that units must have been mixed.
+// the object's middle; its field of view. None where camera and lights are so far that
+// directions towards them turn by less than kHarmlessTurn over the object. Throws Error (data) where a light stands
+// inside the object, behind it, or so far that units must have been mixed.
 std::optional<NearField> nearFieldOf(const Capture& capture, const std::vector<size_t>& photographs,
                                      const std::vector<Light>& lights);
 inline constexpr double kHarmlessTurn = 0.5; // degrees from the object's middle to its edge
+
+// Where the camera stands, as places of a surface are (object_places.h); none: it is orthographic. `width`: of the
+// object, in pixels.
+std::optional<glm::vec3> cameraPlaceOf(const NearField& near, double width);
 
 // The camera alone.
 NearField cameraOf(const Capture& capture);

@@ -114,11 +114,11 @@ bool areQuick(const Surface& surface, size_t size, size_t pixels)
     return 2 * texels <= pixels && texels * 3 * surface.lights.size() * sizeof(float) <= kMostBallBytes;
 }
 
-// The smallest balls that are as good as the tables to the layer, where there are such: of no near light.
+// The smallest balls that are as good as the tables to the layer, where there are such: of no surface that is placed.
 LightBalls quickBalls(const Surface& surface, const ResidualRows& rows, const ResidualJudge& judge,
                       const ResidualFit& fit, size_t pixels, int threads)
 {
-    for (size_t size = kSmallestBall; !hasNearLight(surface) && areQuick(surface, size, pixels); size *= 2) {
+    for (size_t size = kSmallestBall; !isPlaced(surface) && areQuick(surface, size, pixels); size *= 2) {
         LightBalls balls(surface, static_cast<int>(size), threads);
         const Eigen::MatrixXf off =
             rows.observed + fit.trust * (predictedRows(balls, rows.pixels, surface.lights.size()) - rows.predicted);

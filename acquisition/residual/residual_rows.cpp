@@ -14,7 +14,7 @@ namespace nacre {
 
 namespace {
 
-const glm::vec3 kCamera(0, 0, 1);
+const glm::vec3 kFront(0, 0, 1);
 
 // Side by side, so that one texel answers for all lights.
 std::vector<float> ballsOf(const Surface& surface, const BrdfTable& table, int size, int threads)
@@ -35,22 +35,25 @@ std::vector<float> ballsOf(const Surface& surface, const BrdfTable& table, int s
 
 } // namespace
 
-bool hasNearLight(const Surface& surface)
+std::vector<Light> unitLights(const Surface& surface)
 {
-    return std::any_of(surface.lights.begin(), surface.lights.end(),
-                       [](const CapturedLight& light) { return isNear(light.light); });
+    std::vector<Light> lights;
+    for (const CapturedLight& captured : surface.lights) {
+        lights.push_back(captured.light);
+        lights.back().irradiance = glm::vec3(1);
+    }
+    return lights;
+}
+
+bool isPlaced(const Surface& surface)
+{
+    return needsPlaces(surface, unitLights(surface), kFront);
 }
 
 LightBalls::LightBalls(const Surface& surface, int size, int threads)
-    : surface_(surface), size_(size), places_(hasNearLight(surface) ? pixelPlaces(surface) : std::vector<glm::vec3>())
+    : surface_(surface), size_(size), met_(surface, unitLights(surface), kFront)
 {
-    assert(size == 0 || places_.empty());
-    assert(surface.horizon.empty() || places_.empty());
-    if (!surface.horizon.empty()) {
-        for (const CapturedLight& light : surface.lights) {
-            lookups_.push_back(horizonLookup(light.light.direction, surface.horizon.azimuths));
-        }
-    }
+    assert(size == 0 || !isPlaced(surface));
     if (size > 0) {
         for (const Material& material : surface.materials) {
             materials_.push_back(ballsOf(surface, material.table, size, threads));
@@ -71,42 +74,44 @@ void LightBalls::addTexel(const float* texel, float share, const glm::vec3& albe
 
 void LightBalls::predict(size_t pixel, std::span<float> predicted) const
 {
-    predictLit(pixel, predicted);
-    const size_t lights = surface_.lights.size();
-    for (size_t i = 0; i < lookups_.size(); ++i) {
-        const float visible = visibilityOf(surface_.horizon, lookups_[i], pixel);
+    std::fill(predicted.begin(), predicted.end(), 0.0f);
+    size_ == 0 ? askTable(pixel, predicted) : askBall(pixel, predicted);
+}
+
+void LightBalls::askTable(size_t pixel, std::span<float> predicted) const
+{
+    const size_t lights = met_.size();
+    const glm::vec3 view = met_.view(pixel);
+    for (size_t i = 0; i < lights; ++i) {
+        const PixelLights::Met met = met_.at(i, pixel);
+        const glm::vec3 radiance = met.share * brdfRadiance(surface_, pixel, met.light, view);
         for (size_t c = 0; c < 3; ++c) {
-            predicted[c * lights + i] *= visible;
+            predicted[c * lights + i] = radiance[static_cast<int>(c)];
         }
     }
 }
 
-void LightBalls::predictLit(size_t pixel, std::span<float> predicted) const
+void LightBalls::askBall(size_t pixel, std::span<float> predicted) const
 {
-    const size_t lights = surface_.lights.size();
-    std::fill(predicted.begin(), predicted.end(), 0.0f);
     const glm::vec3& normal = surface_.normals.normals[pixel];
-    if (size_ == 0) {
-        for (size_t i = 0; i < lights; ++i) {
-            Light light = surface_.lights[i].light;
-            light.irradiance = glm::vec3(1);
-            light = places_.empty() ? light : lightAt(light, places_[pixel]);
-            const glm::vec3 radiance = brdfRadiance(surface_, pixel, light, kCamera);
-            for (size_t c = 0; c < 3; ++c) {
-                predicted[c * lights + i] = radiance[static_cast<int>(c)];
-            }
-        }
-    } else if (normal.z > 0) {
-        const std::vector<float>& balls = materials_[surface_.labels[pixel]];
-        const glm::vec3 albedo = albedoFactor(surface_, pixel);
-        const glm::vec2 place =
-            ballTexelFromNormal(normal, static_cast<float>(size_)) * static_cast<float>(size_) - 0.5f;
-        const glm::ivec2 corner = glm::clamp(glm::ivec2(place), glm::ivec2(0), glm::ivec2(size_ - 2));
-        const glm::vec2 t = place - glm::vec2(corner);
-        for (const glm::ivec2 step : {glm::ivec2(0, 0), glm::ivec2(1, 0), glm::ivec2(0, 1), glm::ivec2(1, 1)}) {
-            const glm::vec2 shares = glm::mix(1.0f - t, t, glm::vec2(step));
-            const size_t texel = static_cast<size_t>(corner.y + step.y) * size_ + corner.x + step.x;
-            addTexel(&balls[texel * 3 * lights], shares.x * shares.y, albedo, predicted);
+    if (normal.z <= 0) {
+        return;
+    }
+    const size_t lights = met_.size();
+    const std::vector<float>& balls = materials_[surface_.labels[pixel]];
+    const glm::vec3 albedo = albedoFactor(surface_, pixel);
+    const glm::vec2 place = ballTexelFromNormal(normal, static_cast<float>(size_)) * static_cast<float>(size_) - 0.5f;
+    const glm::ivec2 corner = glm::clamp(glm::ivec2(place), glm::ivec2(0), glm::ivec2(size_ - 2));
+    const glm::vec2 t = place - glm::vec2(corner);
+    for (const glm::ivec2 step : {glm::ivec2(0, 0), glm::ivec2(1, 0), glm::ivec2(0, 1), glm::ivec2(1, 1)}) {
+        const glm::vec2 shares = glm::mix(1.0f - t, t, glm::vec2(step));
+        const size_t texel = static_cast<size_t>(corner.y + step.y) * size_ + corner.x + step.x;
+        addTexel(&balls[texel * 3 * lights], shares.x * shares.y, albedo, predicted);
+    }
+    for (size_t i = 0; i < lights && !surface_.horizon.empty(); ++i) {
+        const float share = met_.at(i, pixel).share;
+        for (size_t c = 0; c < 3; ++c) {
+            predicted[c * lights + i] *= share;
         }
     }
 }

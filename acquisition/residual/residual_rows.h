@@ -6,19 +6,24 @@
 #include <Eigen/Core>
 
 #include "acquisition/capture/observations.h"
+#include "engine/scene/pixel_lights.h"
 #include "engine/surface/surface.h"
 
 namespace nacre {
 
-bool hasNearLight(const Surface& surface);
+// The surface's captured lights, of irradiance 1.
+std::vector<Light> unitLights(const Surface& surface);
+
+// Whether its captured lights or its camera are near, so that no ball answers for them.
+bool isPlaced(const Surface& surface);
 
 // The surface's BRDFs under each of its captured lights, as reference balls (shaders/shared/ball.h): with the view from
 // the front and distant lights, a ball answers all pixels of a material. They save time where pixels outnumber a ball's
 // texels.
 class LightBalls {
 public:
-    // `size`: texels across, at least 2; 0: no balls, each pixel asks its table, as near lights need it. The surface is
-    // referred to.
+    // `size`: texels across, at least 2; 0: no balls, each pixel asks its table, as a surface that is placed needs it.
+    // The surface is referred to.
     LightBalls(const Surface& surface, int size, int threads);
 
     // Radiance over irradiance (at the object's middle) of a shaded pixel under all lights, those that the surface's
@@ -26,13 +31,13 @@ public:
     void predict(size_t pixel, std::span<float> predicted) const;
 
 private:
-    void predictLit(size_t pixel, std::span<float> predicted) const; // as if nothing cast a shadow
+    void askTable(size_t pixel, std::span<float> predicted) const;
+    void askBall(size_t pixel, std::span<float> predicted) const;
     void addTexel(const float* texel, float share, const glm::vec3& albedo, std::span<float> predicted) const;
 
     const Surface& surface_;
     int size_;
-    std::vector<glm::vec3> places_;             // of the pixels, where a light is near
-    std::vector<glm::vec4> lookups_;            // horizonLookup of each light, where the surface has a horizon
+    PixelLights met_;                           // the captured ones, of irradiance 1
     std::vector<std::vector<float>> materials_; // [texel * 3 * lights + channel * lights + light]
 };
 

@@ -24,7 +24,7 @@ constexpr std::array kDirectBindings = {
     ShaderBinding{kBindingTable, kTextureInput},   ShaderBinding{kBindingLights, kUniformInput},
     ShaderBinding{kBindingHorizon, kTextureInput}, ShaderBinding{kBindingPlaces, kTextureInput}};
 static_assert(kConstantLightCount == 0 && kConstantCoordinates == 1 && kConstantOneMaterial == 2 &&
-              kConstantPacked == 3 && kConstantCoverage == 4 && kConstantShadows == 5 && kConstantNear == 6);
+              kConstantPacked == 3 && kConstantCoverage == 4 && kConstantShadows == 5 && kConstantPlaced == 6);
 
 // Of the lights of a group.
 void fillHorizon(DirectConstants& constants, std::span<const Light> lights, uint32_t azimuths)
@@ -83,16 +83,17 @@ void copyRows(const Buffer& texels, Frame& frame, int first, int count)
 
 } // namespace
 
-void LightGroups::upload(const Context& context, std::span<const Light> lights, const glm::vec3& view)
+void LightGroups::upload(const Context& context, std::span<const Light> lights, const glm::vec4& viewpoint)
 {
     const size_t groups = std::max<size_t>(1, (lights.size() + kLightsPerGroup - 1) / kLightsPerGroup);
     if (buffer_.bytes() < groups * kGroupBytes) {
         buffer_ = Buffer(context, groups * kGroupBytes, VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT);
     }
     lights_.assign(lights.begin(), lights.end());
-    view_ = view;
-    std::transform(lights.begin(), lights.end(), static_cast<LightFrame*>(buffer_.mapped()),
-                   [&](const Light& light) { return lightFrame(light.direction, view, light.irradiance); });
+    viewpoint_ = viewpoint;
+    std::transform(lights.begin(), lights.end(), static_cast<LightFrame*>(buffer_.mapped()), [&](const Light& light) {
+        return lightFrame(light.direction, glm::vec3(viewpoint), light.irradiance);
+    });
 }
 
 ShaderInput LightGroups::group(size_t index) const
@@ -117,7 +118,7 @@ void DirectPass::record(VkCommandBuffer commands, const Inputs& inputs, const Li
     assert(first % kLightsPerGroup == 0);
     const VkExtent3D size = inputs.table.texture.extent();
     const TableDomain& domain = inputs.table.domain;
-    DirectConstants constants{.view = glm::vec4(lights.view(), 0),
+    DirectConstants constants{.view = lights.viewpoint(),
                               .tableSize = glm::vec4(size.width, size.height, size.depth, domain.thetaDMax),
                               .material = inputs.material,
                               .firstRow = inputs.firstRow,
@@ -133,8 +134,8 @@ void DirectPass::record(VkCommandBuffer commands, const Inputs& inputs, const Li
             textureInput(kBindingTable, linear_, inputs.table.texture), lights.group(light / kLightsPerGroup),
             textureInput(kBindingHorizon, nearest_, horizon),           textureInput(kBindingPlaces, nearest_, places)};
         const std::span<const Light> group = lights.lights().subspan(light, static_cast<size_t>(count));
-        const bool near = inputs.places && anyIsNear(group);
-        if (near) {
+        const bool placed = inputs.places && (anyIsNear(group) || lights.viewpoint().w > 0);
+        if (placed) {
             fillNearness(constants, group);
         }
         if (inputs.horizon) {
@@ -142,7 +143,7 @@ void DirectPass::record(VkCommandBuffer commands, const Inputs& inputs, const Li
         }
         const Pipeline& pipeline = pipelines_.with(
             {count, domain.coordinates, inputs.albedo == nullptr, inputs.normals.format() == kPackedNormalFormat,
-             inputs.coverage && inputs.table.knowsCoverage, inputs.horizon != nullptr, near});
+             inputs.coverage && inputs.table.knowsCoverage, inputs.horizon != nullptr, placed});
         draw(context_, commands, pipeline, shaderInputs, bytesOf(constants));
     }
 }

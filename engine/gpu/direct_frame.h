@@ -14,19 +14,19 @@ namespace nacre {
 // Lights as shaders read them, on the device, in groups of kLightsPerGroup.
 class LightGroups {
 public:
-    // view is unit, towards the viewer for whom they are.
-    void upload(const Context& context, std::span<const Light> lights, const glm::vec3& view);
+    // `viewpoint`: shaders/shared/lens.h.
+    void upload(const Context& context, std::span<const Light> lights, const glm::vec4& viewpoint);
 
     size_t lightCount() const { return lights_.size(); }
     std::span<const Light> lights() const { return lights_; }
-    const glm::vec3& view() const { return view_; }
+    const glm::vec4& viewpoint() const { return viewpoint_; }
     ShaderInput group(size_t index) const;
     VkDeviceSize bytes() const { return buffer_.bytes(); }
 
 private:
     Buffer buffer_;
     std::vector<Light> lights_;
-    glm::vec3 view_{0, 0, 1};
+    glm::vec4 viewpoint_{0, 0, 1, 0};
 };
 
 // Draws shaders/direct.frag: one material's radiance under a range of lights, added to the target, which has

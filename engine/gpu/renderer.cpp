@@ -161,6 +161,9 @@ std::string Renderer::whyDirect()
     if (surface_.materials.empty()) {
         return "there is no material";
     }
+    if (viewpointOf(surface_, view_).w > 0) {
+        return "the camera is near, and pixels of one normal see it from other sides";
+    }
     if (anyIsNear(lights_)) {
         return "near lights differ between pixels of one normal";
     }
@@ -212,10 +215,10 @@ Renderer::Target& Renderer::target()
     return *picture_;
 }
 
-// Before near lights; what was made of the surface without its places is dropped.
+// Before near lights or a near camera; what was made of the surface without its places is dropped.
 void Renderer::placePixels()
 {
-    if (surface_.places.empty() && anyIsNear(lights_)) {
+    if (surface_.places.empty() && needsPlaces(surface_, lights_, view_)) {
         surface_.places = pixelPlaces(surface_);
         pixels_.reset();
         exposurePixels_.reset();
@@ -229,7 +232,7 @@ void Renderer::uploadLights()
     if (lightsAreStale_) {
         placePixels();
         residualFrame_ = residualFrame(surface_.residual, lights_, hasResidual() ? residual_ : ResidualUse::off);
-        groups_.upload(context_, residualFrame_.base, view_);
+        groups_.upload(context_, residualFrame_.base, viewpointOf(surface_, view_));
         lightsAreStale_ = false;
     }
 }

@@ -17,6 +17,7 @@
 #include "engine/scene/coverage.h"
 #include "engine/scene/scene_residual.h"
 #include "engine/surface/height_from_normals.h"
+#include "engine/surface/object_places.h"
 #include "engine/target/mesh_file.h"
 
 namespace nacre {
@@ -174,7 +175,7 @@ void castShadows(Surface& surface, const std::filesystem::path& source)
                        ? fmt::format(", in {} pieces whose heights against each other are not known", integrated.pieces)
                        : "");
     }
-    surface.horizon = horizonMap(surface.normals, surface.height);
+    surface.horizon = horizonMap(surface.normals, heightInPicture(surface));
 }
 
 Surface loadDrawnSurface(const SceneDescription& scene, const std::filesystem::path& fits, const Context& context)

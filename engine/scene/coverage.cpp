@@ -66,8 +66,9 @@ float expectedError(const BrdfTable& table, const glm::vec3& n, const glm::vec3&
                             table.domain.thetaDMax);
 }
 
-PixelCertainty certaintyOf(const Surface& surface, size_t pixel, const PixelLights& lights, const glm::vec3& view)
+PixelCertainty certaintyOf(const Surface& surface, size_t pixel, const PixelLights& lights)
 {
+    const glm::vec3 view = lights.view(pixel);
     const glm::vec3& n = surface.normals.normals[pixel];
     const BrdfTable& table = surface.materials[surface.labels[pixel]].table;
     PixelCertainty certainty;
@@ -98,11 +99,11 @@ double uncertainShare(const Surface& surface, std::span<const Light> lights, con
         return 0;
     }
     const std::vector<size_t> pixels = facingPixels(surface, view, std::max(kLeastPixels, mostPairs / lights.size()));
-    const PixelLights met(surface, lights);
+    const PixelLights met(surface, lights, view);
     std::vector<size_t> lit(pixels.size() / kGrain + 1), uncertain(lit.size());
     parallelFor(pixels.size(), kGrain, threads, [&](size_t first, size_t last) {
         for (size_t i = first; i < last; ++i) {
-            const PixelCertainty pixel = certaintyOf(surface, pixels[i], met, view);
+            const PixelCertainty pixel = certaintyOf(surface, pixels[i], met);
             lit[first / kGrain] += pixel.isLit;
             uncertain[first / kGrain] += pixel.isUncertain && canBe[surface.labels[pixels[i]]];
         }

@@ -21,7 +21,7 @@ struct PixelCertainty {
 };
 
 // The CPU twin of shaders/direct.frag's alpha. Of a pixel that is shaded; materials without coverage are certain.
-PixelCertainty certaintyOf(const Surface& surface, size_t pixel, const PixelLights& lights, const glm::vec3& view);
+PixelCertainty certaintyOf(const Surface& surface, size_t pixel, const PixelLights& lights);
 
 // Of the lit pixels, the share that is uncertain: of all, or of an even sample where pixels times lights are many.
 double uncertainShare(const Surface& surface, std::span<const Light> lights, const glm::vec3& view, size_t mostPairs,

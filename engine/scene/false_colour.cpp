@@ -37,11 +37,10 @@ Image hatchedPicture(const Scene& scene, const Display& display, int threads)
     for (const Material& material : surface.materials) {
         known.push_back(knowsCoverage(material.table));
     }
-    const PixelLights lights(surface, scene.lights);
+    const PixelLights lights(surface, scene.lights, scene.view);
     Image picture = displayedImage(renderReference(scene, threads), display);
     for (size_t pixel = 0; pixel < picture.pixelCount(); ++pixel) {
-        if (isShown(scene, pixel) && known[surface.labels[pixel]] &&
-            certaintyOf(surface, pixel, lights, scene.view).isUncertain) {
+        if (isShown(scene, pixel) && known[surface.labels[pixel]] && certaintyOf(surface, pixel, lights).isUncertain) {
             const auto x = static_cast<int>(pixel % picture.width), y = static_cast<int>(pixel / picture.width);
             picture.setRgb(x, y, rounded(hatched(picture.rgb(x, y), {x, y})));
         }

@@ -24,7 +24,7 @@ PreparedLights prepare(const Scene& scene)
     const ResidualUse use = isFromTheFront(scene.view) ? ResidualUse::on : ResidualUse::off;
     ResidualFrame residual = residualFrame(scene.surface.residual, scene.lights, use);
     const std::span<const Light> base = residual.base; // stays where it is as the frame moves
-    return {std::move(residual), PixelLights(scene.surface, base)};
+    return {std::move(residual), PixelLights(scene.surface, base, scene.view)};
 }
 
 // What the BRDF says, and what it does not know.
@@ -39,13 +39,17 @@ glm::vec3 withResidual(const Scene& scene, const ResidualFrame& residual, glm::v
 glm::vec3 radianceOfPixel(const Scene& scene, const PreparedLights& lights, size_t pixel)
 {
     const Surface& surface = scene.surface;
-    if (!isShaded(surface, pixel) || glm::dot(surface.normals.normals[pixel], scene.view) <= 0) {
+    if (!isShaded(surface, pixel)) {
+        return glm::vec3(0);
+    }
+    const glm::vec3 view = lights.met.view(pixel);
+    if (glm::dot(surface.normals.normals[pixel], view) <= 0) {
         return glm::vec3(0);
     }
     glm::vec3 sum(0);
     for (size_t i = 0; i < scene.lights.size(); ++i) {
         const PixelLights::Met met = lights.met.at(i, pixel);
-        sum += met.share * brdfRadiance(surface, pixel, met.light, scene.view);
+        sum += met.share * brdfRadiance(surface, pixel, met.light, view);
     }
     return withResidual(scene, lights.residual, sum, pixel);
 }

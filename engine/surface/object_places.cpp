@@ -4,7 +4,9 @@
 #include <limits>
 
 #include <glm/common.hpp>
+#include <glm/geometric.hpp>
 
+#include "shared/lens.h"
 #include "shared/near_light.h"
 
 namespace nacre {
@@ -44,6 +46,11 @@ std::vector<uint32_t> pixelsWithNormal(const NormalMap& normals)
 
 } // namespace
 
+ObjectExtent extentOf(const NormalMap& normals)
+{
+    return extentOf(pixelsWithNormal(normals), normals.width);
+}
+
 float outlineHeight(const NormalMap& normals, const Image& height)
 {
     double sum = 0, count = 0;
@@ -68,20 +75,53 @@ std::vector<glm::vec3> pixelPlaces(const Surface& surface)
     const ObjectExtent extent = extentOf(pixels, normals.width);
     const bool hasHeight = !surface.height.values.empty();
     const float plane = hasHeight ? outlineHeight(normals, surface.height) : 0.0f;
+    const glm::dvec2 axis(surface.camera.value_or(glm::vec3(0)));
     std::vector<glm::vec3> places(normals.normals.size(), glm::vec3(0));
     for (const uint32_t pixel : pixels) {
         const uint32_t column = pixel % static_cast<uint32_t>(normals.width),
                        row = pixel / static_cast<uint32_t>(normals.width);
         const double x = column + 0.5, y = row + 0.5;
         const double z = hasHeight ? surface.height.values[pixel] - plane : 0;
-        places[pixel] = glm::vec3(glm::dvec3(x - extent.middle.x, extent.middle.y - y, z) / extent.width);
+        const glm::dvec3 place = glm::dvec3(x - extent.middle.x, extent.middle.y - y, z) / extent.width;
+        const double towards = surface.camera ? place.z / surface.camera->z : 0.0;
+        places[pixel] = glm::vec3(glm::mix(glm::dvec2(place), axis, towards), place.z);
     }
     return places;
+}
+
+Image heightInPicture(const Surface& surface)
+{
+    Image height = surface.height;
+    const glm::vec4 viewpoint = viewpointOf(surface, {0, 0, 1});
+    if (viewpoint.w == 0) {
+        return height;
+    }
+    const NormalMap& normals = surface.normals;
+    const auto width = static_cast<float>(extentOf(normals).width);
+    const float plane = outlineHeight(normals, height);
+    for (float& z : height.values) {
+        z = width * heightInPicture(viewpoint, (z - plane) / width);
+    }
+    return height;
+}
+
+glm::vec4 viewpointOf(const Surface& surface, const glm::vec3& view)
+{
+    if (!surface.camera || !isFromTheFront(view)) {
+        return {view, 0};
+    }
+    const float distance = glm::length(*surface.camera);
+    return {*surface.camera / distance, 1 / distance};
 }
 
 bool anyIsNear(std::span<const Light> lights)
 {
     return std::any_of(lights.begin(), lights.end(), isNear);
+}
+
+bool needsPlaces(const Surface& surface, std::span<const Light> lights, const glm::vec3& view)
+{
+    return anyIsNear(lights) || viewpointOf(surface, view).w > 0;
 }
 
 Light lightAt(const Light& light, const glm::vec3& place)

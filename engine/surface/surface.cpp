@@ -44,6 +44,7 @@ Surface transferredSurface(const Surface& target, const Material& material)
     Surface surface = transferredSurface(target.normals, material);
     surface.height = target.height;
     surface.horizon = target.horizon;
+    surface.camera = target.camera;
     return surface;
 }
 
@@ -85,6 +86,7 @@ Surface sampledPixels(const Surface& surface, size_t most)
     const int width = std::max(1, static_cast<int>(std::ceil(std::sqrt(static_cast<double>(count)))));
     const int height = std::max(1, static_cast<int>((count + width - 1) / width));
     Surface sample;
+    sample.camera = surface.camera;
     sample.normals = NormalMap(width, height);
     sample.labels.assign(sample.normals.normals.size(), Surface::kNoMaterial);
     const bool hasAlbedo = !surface.albedo.values.empty();

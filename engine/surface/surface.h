@@ -52,6 +52,8 @@ struct Surface {
     ResidualLayer residual;    // of the captured photographs; empty: the BRDF is all
     HorizonMap horizon;        // of the height, for cast shadows; empty: lights reach all that faces them. In no file
     std::vector<glm::vec3> places; // pixelPlaces, where they are known; in no file
+    // Where the camera stands, as places are. None: far away, so that it sees along z.
+    std::optional<glm::vec3> camera;
     std::vector<CapturedLight> lights;
     std::string transfer; // of the photographs: linear or srgb; empty: not known, or as they declare it themselves
     RadianceScale scale = RadianceScale::relative;

@@ -97,6 +97,9 @@ nlohmann::json descriptionOf(const Surface& surface)
     if (!surface.transfer.empty()) {
         json["transfer"] = surface.transfer;
     }
+    if (surface.camera) {
+        json["camera"] = arrayOf(*surface.camera);
+    }
     if (surface.castsShadows) {
         json["shadows"] = true;
     }
@@ -282,6 +285,16 @@ Light lightOf(const JsonNode& node)
     return light;
 }
 
+glm::vec3 cameraOf(const JsonNode& node)
+{
+    const glm::vec3 place = node.vector3();
+    if (!(place.z >= kNearestLight)) {
+        throw node.error(fmt::format("stands {:g} widths before the object, inside it", place.z),
+                         fmt::format("{} widths of the object or more", kNearestLight));
+    }
+    return place;
+}
+
 Surface surfaceOf(const JsonNode& root)
 {
     Surface surface;
@@ -304,6 +317,9 @@ Surface surfaceOf(const JsonNode& root)
     }
     if (const auto transfer = root.find("transfer")) {
         surface.transfer = transfer->text();
+    }
+    if (const auto camera = root.find("camera")) {
+        surface.camera = cameraOf(*camera);
     }
     if (const auto shadows = root.find("shadows")) {
         surface.castsShadows = shadows->truth();

@@ -17,19 +17,19 @@ const int kBindingHorizon = 5; // sampled 2D array: a layer an azimuth, codes of
 const int kBindingResidual = 6;        // texel buffer of integers: codes of components, see residual.h
 const int kBindingResidualWeights = 7; // texel buffer: ResidualWeights
 
-const int kBindingPlaces = 8; // sampled 2D: xyz the pixel's point in widths of the object, see near_light.h
+const int kBindingPlaces = 8; // sampled 2D: xyz the pixel's point in widths of the object, see near_light.h and lens.h
 
 // Lights of one draw. The loop over them is unrolled, so that their fields are loaded once for all pixels.
 const int kLightsPerGroup = 4;
 
 // Index of a specialisation constant, one meaning a shader.
-const int kConstantLightCount = 0;        // direct.frag: lights of the group, 1 to kLightsPerGroup
-const int kConstantCoordinates = 1;       // direct.frag: of the table
-const int kConstantOneMaterial = 2;       // direct.frag: all pixels have it and albedo 1
-const int kConstantPacked = 3;            // direct.frag: normals are packed
-const int kConstantCoverage = 4;          // direct.frag: alpha tells how far off radiance may be
-const int kConstantShadows = 5;           // direct.frag: the height casts shadows
-const int kConstantNear = 6;              // direct.frag: some light of the group is near
+const int kConstantLightCount = 0;  // direct.frag: lights of the group, 1 to kLightsPerGroup
+const int kConstantCoordinates = 1; // direct.frag: of the table
+const int kConstantOneMaterial = 2; // direct.frag: all pixels have it and albedo 1
+const int kConstantPacked = 3;      // direct.frag: normals are packed
+const int kConstantCoverage = 4;    // direct.frag: alpha tells how far off radiance may be
+const int kConstantShadows = 5;     // direct.frag: the height casts shadows
+const int kConstantPlaced = 6; // direct.frag: pixels' places matter, since a light of the group or the camera is near
 const int kConstantModulated = 0;         // ball*.frag, floor.frag, false_colour.frag: factors and labels
 const int kConstantToneCurve = 1;         // ball*.frag, display.frag
 const int kConstantBallResidual = 2;      // ball.frag: components, in fours; 0: no layer
@@ -40,13 +40,13 @@ const int kConstantHatched = 0;           // display.frag: stripes where alpha i
 const int kConstantShow = 1;              // false_colour.frag
 
 struct DirectConstants {
-    vec4 view;      // xyz unit, towards the viewer; w unused
+    vec4 view;      // viewpoint, see lens.h
     vec4 tableSize; // xyz texels of the 3D table; w = largest thetaD on its grid
     int material;   // index that this pass shades
     int firstRow;   // of the surface, in the target's row 0
-    // One a light: 1 / distance in widths of the object, 0 of distant lights; read where some light is near.
+    // One a light: 1 / distance in widths of the object, 0 of distant lights; read where places matter.
     float nearness[kLightsPerGroup];
-    vec4 horizon[kLightsPerGroup]; // horizonLookup of each light, where there are shadows and no light is near
+    vec4 horizon[kLightsPerGroup]; // horizonLookup of each light, where there are shadows and places do not matter
 };
 
 // Of shaders that draw several pixels at once: codes, side by side in a texel of the target.

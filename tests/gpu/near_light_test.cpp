@@ -8,6 +8,7 @@
 #include "engine/gpu/renderer.h"
 #include "engine/scene/reference.h"
 #include "engine/surface/height_from_normals.h"
+#include "engine/surface/object_places.h"
 #include "shared/layout.h"
 #include "tests/gpu/frame_match.h"
 #include "tests/gpu/gpu_test.h"
@@ -58,6 +59,25 @@ TEST_F(NearLightTest, ShadowsFallFromWhereEachPixelMeetsTheLight)
     Scene scene = withHeight(nearScene(120, 90));
     scene.surface.horizon = horizonMap(scene.surface.normals, scene.surface.height);
     expectTwins(scene);
+}
+
+TEST_F(NearLightTest, ALensIsTheTwins)
+{
+    Scene scene = withHeight(nearScene(120, 90));
+    scene.surface.camera = glm::vec3(0.1f, -0.2f, 1.4f);
+    expectTwins(scene);
+    scene.surface.horizon = horizonMap(scene.surface.normals, heightInPicture(scene.surface));
+    expectTwins(scene);
+    for (Light& light : scene.lights) {
+        light.distance = std::numeric_limits<float>::infinity();
+    }
+    expectTwins(scene);
+    Renderer renderer(*context);
+    const Frame lens = renderer.render(scene);
+    EXPECT_EQ(renderer.pathTaken(), RenderPath::direct);
+    EXPECT_NE(renderer.whyDirect().find("camera is near"), std::string::npos);
+    scene.surface.camera.reset();
+    EXPECT_FALSE(framesMatch(lens, renderReference(scene)));
 }
 
 // More pixels than one band of radiance holds: each knows its own place all the same.
