@@ -6,6 +6,7 @@
 #include "engine/files/parallel_for.h"
 #include "engine/surface/height_from_normals.h"
 #include "engine/surface/height_springs.h"
+#include "engine/surface/object_places.h"
 
 namespace nacre {
 
@@ -98,26 +99,53 @@ Rays unmet(Rays rays, const std::vector<double>& height)
     return rays;
 }
 
+// Near lights and cameras have places before the plane of the outline.
+void standOnOutline(const LitGrid& grid, std::vector<double>& height)
+{
+    Image image(grid.normals.width, grid.normals.height, 1);
+    std::transform(height.begin(), height.end(), image.values.begin(), [](double z) { return static_cast<float>(z); });
+    const double plane = outlineHeight(grid.normals, image);
+    for (double& z : height) {
+        z -= plane;
+    }
+}
+
+std::vector<double> startHeight(const LitGrid& grid, const Image& byNormals)
+{
+    std::vector<double> height(byNormals.values.begin(), byNormals.values.end());
+    if (isPlaced(grid)) {
+        standOnOutline(grid, height);
+    }
+    return height;
+}
+
 } // namespace
 
 Image heightFromShadows(const LitGrid& grid, std::span<const size_t> by, int threads)
 {
     const HeightSprings springs = heightSprings(grid.normals);
     Image result = heightFromNormals(grid.normals, {.threads = threads}).height;
-    std::vector<double> height(result.values.begin(), result.values.end());
+    const bool placed = isPlaced(grid);
+    std::vector<double> height = startHeight(grid, result);
     const std::vector<size_t> lit = evenly(by, kMostLitLights);
-    const Rays shadows = traced(by, threads, [&](size_t light) { return shadowRays(grid, light); });
+    Rays shadows;
     for (int round = 0; round < kSolves; ++round) {
         const double tolerance = 2 * round < kSolves ? kWide : 1;
         const HeightSprings now = weakened(springs, height);
         std::vector<double> pull = pullOf(now);
         std::vector<SpringLink> links;
+        if (placed || round == 0) { // the rays of distant lights stay the same
+            shadows = traced(by, threads, [&](size_t light) { return shadowRays(grid, light, height); });
+        }
         const Rays contradicted =
             traced(lit, threads, [&](size_t light) { return contradictedRays(grid, light, height); });
         addLinks(unmet(shadows, height), height, tolerance, links, pull);
         addLinks(contradicted, height, tolerance, links, pull);
         SpringSolver solver(now.grid, std::move(links), threads);
         solver.solve(pull, height, kSolverTolerance, kMostIterations);
+        if (placed) {
+            standOnOutline(grid, height);
+        }
     }
     std::transform(height.begin(), height.end(), result.values.begin(), [](double z) { return static_cast<float>(z); });
     return result;

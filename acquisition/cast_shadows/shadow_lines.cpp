@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include <glm/geometric.hpp>
 
@@ -15,62 +16,134 @@ constexpr double kHeightTolerance = 0.5; // pixels of height: the grid knows no 
 
 constexpr uint32_t kNone = UINT32_MAX;
 
-// Pixels of a line across the picture, from the light's side, kNone where there is no normal.
-using PixelLine = std::vector<uint32_t>;
+// A line across the picture.
+struct PixelLine {
+    std::vector<uint32_t> pixels; // from the light's side, one a step; kNone where there is no normal
+    float stepLength = 1;         // in pixels
+};
 
-// Lines through the picture along the light's way, one pixel a step along the axis nearer to it; each pixel is of one.
-class PixelLines {
-public:
-    PixelLines(const NormalMap& normals, const glm::vec3& light) : normals_(normals)
-    {
-        const glm::vec2 towards(light.x, -light.y); // columns and rows
-        isFlat_ = std::abs(towards.x) >= std::abs(towards.y);
-        const float along = isFlat_ ? towards.x : towards.y, across = isFlat_ ? towards.y : towards.x;
-        const float drift = across / along;
-        risePerStep = light.z / glm::length(towards) * std::sqrt(1 + drift * drift);
-        const int length = isFlat_ ? normals.width : normals.height;
-        for (int step = 0; step < length; ++step) {
-            const int place = along > 0 ? length - 1 - step : step;
-            along_.push_back(place);
-            across_.push_back(static_cast<int>(std::lround(drift * static_cast<float>(place))));
+uint32_t pixelAt(const NormalMap& normals, int x, int y)
+{
+    const size_t pixel = normals.index(x, y);
+    return normals.confidence[pixel] > 0 ? static_cast<uint32_t>(pixel) : kNone;
+}
+
+// Lines along the light's way where it comes from one side: one pixel a step along the axis nearer to it; each pixel is
+// of one.
+template <class Visit> void forEachParallel(const NormalMap& normals, const glm::vec4& light, Visit&& visit)
+{
+    const glm::vec2 towards(light.x, -light.y); // columns and rows
+    const bool isFlat = std::abs(towards.x) >= std::abs(towards.y);
+    const float along = isFlat ? towards.x : towards.y, across = isFlat ? towards.y : towards.x;
+    const float drift = across / along;
+    std::vector<int> alongs, acrosses; // by step
+    const int length = isFlat ? normals.width : normals.height, breadth = isFlat ? normals.height : normals.width;
+    for (int step = 0; step < length; ++step) {
+        const int place = along > 0 ? length - 1 - step : step;
+        alongs.push_back(place);
+        acrosses.push_back(static_cast<int>(std::lround(drift * static_cast<float>(place))));
+    }
+    const auto [least, most] = std::minmax(acrosses.front(), acrosses.back());
+    PixelLine line{std::vector<uint32_t>(alongs.size()), std::sqrt(1 + drift * drift)};
+    for (int start = -most; start < breadth - least; ++start) {
+        bool isEmpty = true;
+        for (size_t step = 0; step < line.pixels.size(); ++step) {
+            const int at = start + acrosses[step];
+            const bool isInside = at >= 0 && at < breadth;
+            line.pixels[step] = !isInside ? kNone
+                                : isFlat  ? pixelAt(normals, alongs[step], at)
+                                          : pixelAt(normals, at, alongs[step]);
+            isEmpty = isEmpty && line.pixels[step] == kNone;
+        }
+        if (!isEmpty) {
+            visit(line);
         }
     }
+}
 
-    float risePerStep = 0; // of the ray, in pixels
+// Lines through the point over which the light stands in the picture, to each pixel of its border. Where w is negative
+// the light is seen in the direction away from there.
+template <class Visit> void forEachRadial(const NormalMap& normals, const glm::vec4& light, Visit&& visit)
+{
+    const glm::dvec2 foot(light.x / light.w, -light.y / light.w); // columns and rows
+    PixelLine line;
+    const auto visitTo = [&](int x, int y) {
+        const glm::dvec2 towards = foot - glm::dvec2(x, y);
+        const double reach = std::max(std::abs(towards.x), std::abs(towards.y));
+        if (reach < 1) {
+            return;
+        }
+        const glm::dvec2 step = towards / reach;
+        line.stepLength = static_cast<float>(glm::length(step));
+        line.pixels.clear();
+        for (int k = 0; k <= static_cast<int>(reach); ++k) {
+            const auto column = static_cast<int>(std::lround(x + k * step.x)),
+                       row = static_cast<int>(std::lround(y + k * step.y));
+            if (column < 0 || row < 0 || column >= normals.width || row >= normals.height) {
+                break;
+            }
+            line.pixels.push_back(pixelAt(normals, column, row));
+        }
+        if (light.w > 0) {
+            std::reverse(line.pixels.begin(), line.pixels.end());
+        }
+        visit(line);
+    };
+    for (int x = 0; x < normals.width; ++x) {
+        visitTo(x, 0);
+        visitTo(x, normals.height - 1);
+    }
+    for (int y = 1; y + 1 < normals.height; ++y) {
+        visitTo(0, y);
+        visitTo(normals.width - 1, y);
+    }
+}
+
+// The lines of a light, and how steeply it comes down along them.
+class LightLines {
+public:
+    LightLines(const LitGrid& grid, size_t light)
+        : grid_(grid), light_(grid.lights[light]), told_(light_.w == 0 ? 0 : grid.normals.normals.size(), 0)
+    {
+    }
 
     template <class Visit> void forEach(Visit&& visit) const
     {
-        const int breadth = isFlat_ ? normals_.height : normals_.width;
-        const auto [least, most] = std::minmax(across_.front(), across_.back());
-        PixelLine line(along_.size());
-        for (int start = -most; start < breadth - least; ++start) {
-            bool isEmpty = true;
-            for (size_t step = 0; step < line.size(); ++step) {
-                const int across = start + across_[step];
-                line[step] = across >= 0 && across < breadth ? pixelAt(along_[step], across) : kNone;
-                isEmpty = isEmpty && line[step] == kNone;
-            }
-            if (!isEmpty) {
-                visit(line);
-            }
+        if (light_.w != 0) {
+            forEachRadial(grid_.normals, light_, visit);
+        } else if (std::hypot(light_.x, light_.y) > kLeastSlant) {
+            forEachParallel(grid_.normals, light_, visit);
         }
     }
 
-private:
-    uint32_t pixelAt(int along, int across) const
+    // Of a ray to a pixel of the scene's height z over a step, in pixels. None where the pixel has been asked before,
+    // or the light is too near to the camera.
+    std::optional<float> risePerStep(const PixelLine& line, uint32_t pixel, double z)
     {
-        const size_t pixel = isFlat_ ? normals_.index(along, across) : normals_.index(across, along);
-        return normals_.confidence[pixel] > 0 ? static_cast<uint32_t>(pixel) : kNone;
+        const auto width = static_cast<uint32_t>(grid_.normals.width);
+        const glm::vec3 p(pixel % width, -static_cast<float>(pixel / width), z);
+        const glm::vec3 towards = glm::vec3(light_) - light_.w * p;
+        const float across = glm::length(glm::vec2(towards));
+        if (light_.w != 0) {
+            if (told_[pixel] != 0 || across <= kLeastSlant * glm::length(towards)) {
+                return std::nullopt;
+            }
+            told_[pixel] = 1;
+        }
+        return towards.z / across * line.stepLength;
     }
 
-    const NormalMap& normals_;
-    bool isFlat_ = true;
-    std::vector<int> along_, across_; // by step
+private:
+    const LitGrid& grid_;
+    glm::vec4 light_;
+    std::vector<uint8_t> told_; // of lines that meet
 };
 
-bool castsShadows(const glm::vec3& light)
+// By what q rises along a ray that rises so much in the scene, to a pixel of the height q.
+float riseOfNormals(const LitGrid& grid, double q, double rise)
 {
-    return std::hypot(light.x, light.y) > kLeastSlant;
+    return static_cast<float>(std::isfinite(grid.cameraDistance) ? normalsHeight(grid, sceneHeight(grid, q) + rise) - q
+                                                                 : rise);
 }
 
 // A place that a line has passed.
@@ -88,24 +161,26 @@ bool standsOver(const Passed& near, const Passed& far, const Passed& now)
 
 } // namespace
 
-std::vector<GrazingRay> shadowRays(const LitGrid& grid, size_t light)
+std::vector<GrazingRay> shadowRays(const LitGrid& grid, size_t light, const std::vector<double>& height)
 {
     std::vector<GrazingRay> rays;
-    if (!castsShadows(grid.lights[light])) {
-        return rays;
-    }
-    const PixelLines lines(grid.normals, grid.lights[light]);
+    LightLines lines(grid, light);
     const auto isLit = [&](uint32_t pixel) { return pixel != kNone && grid.state(pixel, light) == LightState::lit; };
     lines.forEach([&](const PixelLine& line) {
-        size_t caster = line.size(); // the step of the last lit pixel
-        for (size_t step = 0; step < line.size(); ++step) {
-            if (isLit(line[step])) {
+        const std::vector<uint32_t>& pixels = line.pixels;
+        size_t caster = pixels.size(); // the step of the last lit pixel
+        for (size_t step = 0; step < pixels.size(); ++step) {
+            const uint32_t pixel = pixels[step];
+            if (isLit(pixel)) {
                 caster = step;
-            } else if (caster + 1 < step && line[step] != kNone && grid.state(line[step], light) == LightState::cast) {
-                const bool isEdge = step + 1 < line.size() && isLit(line[step + 1]);
+            } else if (caster + 1 < step && pixel != kNone && grid.state(pixel, light) == LightState::cast) {
+                const bool isEdge = step + 1 < pixels.size() && isLit(pixels[step + 1]);
+                const double q = height[pixel];
                 // What casts it ends somewhere before the next pixel.
-                const float rise = lines.risePerStep * (static_cast<float>(step - caster) - 0.5f);
-                rays.push_back({line[caster], line[step], rise, isEdge});
+                if (const auto rise = lines.risePerStep(line, pixel, sceneHeight(grid, q))) {
+                    const float steps = static_cast<float>(step - caster) - 0.5f;
+                    rays.push_back({pixels[caster], pixel, riseOfNormals(grid, q, *rise * steps), isEdge});
+                }
             }
         }
     });
@@ -115,25 +190,24 @@ std::vector<GrazingRay> shadowRays(const LitGrid& grid, size_t light)
 std::vector<GrazingRay> contradictedRays(const LitGrid& grid, size_t light, const std::vector<double>& height)
 {
     std::vector<GrazingRay> rays;
-    if (!castsShadows(grid.lights[light])) {
-        return rays;
-    }
-    const PixelLines lines(grid.normals, grid.lights[light]);
+    LightLines lines(grid, light);
     std::vector<Passed> hull; // upper and convex, the nearest last
     lines.forEach([&](const PixelLine& line) {
         hull.clear();
-        for (size_t step = 0; step < line.size(); ++step) {
-            if (line[step] == kNone) {
+        for (size_t step = 0; step < line.pixels.size(); ++step) {
+            if (line.pixels[step] == kNone) {
                 continue;
             }
-            const Passed now{static_cast<double>(step), height[line[step]], line[step]};
+            const double q = height[line.pixels[step]];
+            const Passed now{static_cast<double>(step), sceneHeight(grid, q), line.pixels[step]};
             while (hull.size() > 1 && !standsOver(hull.back(), hull[hull.size() - 2], now)) {
                 hull.pop_back();
             }
             if (!hull.empty() && grid.state(now.pixel, light) == LightState::lit) {
-                const double rise = lines.risePerStep * (now.step - hull.back().step);
-                if (hull.back().height - now.height > rise + kHeightTolerance) {
-                    rays.push_back({hull.back().pixel, now.pixel, static_cast<float>(rise)});
+                const auto perStep = lines.risePerStep(line, now.pixel, now.height);
+                const double rise = perStep ? *perStep * (now.step - hull.back().step) : 0;
+                if (perStep && hull.back().height - now.height > rise + kHeightTolerance) {
+                    rays.push_back({hull.back().pixel, now.pixel, riseOfNormals(grid, q, rise)});
                 }
             }
             hull.push_back(now);

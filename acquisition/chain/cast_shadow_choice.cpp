@@ -11,8 +11,10 @@
 #include "acquisition/cast_shadows/lit_grid.h"
 #include "acquisition/cast_shadows/shadow_height.h"
 #include "acquisition/chain/self_lit_choice.h"
+#include "acquisition/near_field/as_if_distant.h"
 #include "engine/files/measures.h"
 #include "engine/files/parallel_for.h"
+#include "engine/scene/pixel_lights.h"
 #include "engine/surface/object_places.h"
 
 namespace nacre {
@@ -25,15 +27,38 @@ constexpr size_t kParts = 3;            // of the lights, each of which one heig
 constexpr size_t kFirstParts = 2;       // of them; where these say nothing for shadows, the rest is not asked
 constexpr size_t kStatesAtOnce = 256;
 constexpr int kBallSize = 64; // states need no more
+const glm::vec3 kFront(0, 0, 1);
 
 struct ThinnedGrid {
     LitGrid grid;
     Thinning thinning;
+    NormalMap normals; // of all pixels, of which the grid has some
 };
 
 int spacingFor(size_t pixels, size_t lights)
 {
     return std::max(1, static_cast<int>(std::ceil(std::sqrt(static_cast<double>(pixels * lights) / kMostStates))));
+}
+
+// A light as points of the grid see it: the projective map of shaders/shared/lens.h of its place, or of its direction
+// as a place at infinity, in homogeneous coordinates. From widths of the object to pixels of the grid.
+glm::vec4 lightOverGrid(const Surface& surface, const Light& light, const Thinning& thinning)
+{
+    glm::vec4 place = isNear(light) ? glm::vec4(light.distance * light.direction, 1) : glm::vec4(light.direction, 0);
+    if (surface.camera) {
+        const glm::vec2 axis(*surface.camera);
+        place.w -= place.z / surface.camera->z;
+        place += glm::vec4(axis * (place.w - (isNear(light) ? 1.0f : 0.0f)), 0, 0);
+    }
+    if (place.w == 0) {
+        return place;
+    }
+    const ObjectExtent extent = extentOf(surface.normals);
+    const glm::dvec2 first(thinning.middleOf(0, 0));
+    const glm::dvec2 middle = (extent.middle - 0.5 - first) / static_cast<double>(thinning.spacing);
+    const auto scale = static_cast<float>(extent.width / thinning.spacing);
+    return {scale * place.x + static_cast<float>(middle.x) * place.w,
+            scale * place.y - static_cast<float>(middle.y) * place.w, scale * place.z, place.w};
 }
 
 // Of the shaded pixels' bounding box.
@@ -54,7 +79,12 @@ ThinnedGrid emptyGrid(const Surface& surface, size_t pixels)
     thinned.thinning = {spacing, first};
     const glm::ivec2 size = (end - first + spacing - 1) / spacing;
     LitGrid& grid = thinned.grid;
-    grid.lights = lightDirections(surface);
+    for (const CapturedLight& captured : surface.lights) {
+        grid.lights.push_back(lightOverGrid(surface, captured.light, thinned.thinning));
+    }
+    if (surface.camera) {
+        grid.cameraDistance = surface.camera->z * extentOf(surface.normals).width / spacing;
+    }
     grid.normals = NormalMap(size.x, size.y);
     grid.states.assign(grid.normals.normals.size() * grid.lights.size(), LightState::unknown);
     return thinned;
@@ -66,8 +96,8 @@ float greySeen(const Observations& block, size_t place, size_t light, const Ligh
     return block.saturatedOf(place)[light] != 0 ? predicted : greyOf(block.radianceOf(place)[light] / by.irradiance);
 }
 
-void addBlock(const Surface& surface, const LightBalls& balls, const Observations& block, int threads,
-              ThinnedGrid& thinned)
+void addBlock(const Surface& surface, const LightBalls& balls, const PixelLights& met, const Observations& block,
+              int threads, ThinnedGrid& thinned)
 {
     LitGrid& grid = thinned.grid;
     const size_t lights = grid.lights.size();
@@ -86,12 +116,12 @@ void addBlock(const Surface& surface, const LightBalls& balls, const Observation
             }
             const glm::vec3& normal = surface.normals.normals[pixel];
             const size_t node = grid.normals.index(at.x, at.y);
-            grid.normals.normals[node] = normal;
+            grid.normals.normals[node] = thinned.normals.normals[pixel];
             grid.normals.confidence[node] = surface.normals.confidence[pixel];
             balls.predict(pixel, predicted);
             for (size_t i = 0; i < lights; ++i) {
                 const float grey = greyOf({predicted[i], predicted[lights + i], predicted[2 * lights + i]});
-                grid.state(node, i) = lightStateOf(glm::dot(normal, grid.lights[i]),
+                grid.state(node, i) = lightStateOf(glm::dot(normal, met.at(i, pixel).light.direction),
                                                    greySeen(block, p, i, surface.lights[i].light, grey), grey);
             }
         }
@@ -102,11 +132,14 @@ ThinnedGrid litGridOf(const Measurement& measurement, ObservationBlocks& blocks,
 {
     const Surface& surface = measurement.surface;
     const int threads = measurement.prepared.threads;
-    const LightBalls balls(surface, kBallSize, threads);
+    const LightBalls balls(surface, isPlaced(surface) ? 0 : kBallSize, threads);
+    const PixelLights met(surface, unitLights(surface), kFront);
     ThinnedGrid thinned = emptyGrid(surface, pixels);
+    thinned.normals = measurement.prepared.nearField ? withoutLens(surface.normals, *measurement.prepared.nearField)
+                                                     : surface.normals;
     while (const Observations* block = blocks.next()) {
         forEachDirect(measurement.prepared, measurement.method, *block, threads,
-                      [&](const Observations& direct) { addBlock(surface, balls, direct, threads, thinned); });
+                      [&](const Observations& direct) { addBlock(surface, balls, met, direct, threads, thinned); });
     }
     return thinned;
 }
@@ -120,21 +153,32 @@ double castShareOf(const LitGrid& grid)
     return facing > 0 ? cast / facing : 0.0;
 }
 
-// By one thread: several are found side by side.
-Image heightBy(const NormalMap& normals, const ThinnedGrid& thinned, std::span<const size_t> by)
+// What casts the surface's shadows: normals, the height that these lights show, its horizon; no material. By one
+// thread: several are found side by side.
+Surface casterBy(const Measurement& measurement, const ThinnedGrid& thinned, std::span<const size_t> by)
 {
-    return fullHeight(normals, thinned.grid.normals, heightFromShadows(thinned.grid, by, 1), thinned.thinning, 1);
+    const std::optional<NearField>& near = measurement.prepared.nearField;
+    Surface caster;
+    caster.normals = measurement.surface.normals;
+    caster.camera = measurement.surface.camera;
+    caster.height =
+        fullHeight(thinned.normals, thinned.grid.normals, heightFromShadows(thinned.grid, by, 1), thinned.thinning, 1);
+    if (near) {
+        caster.height = heightOfIntegral(caster.normals, std::move(caster.height), *near);
+    }
+    caster.horizon = horizonMap(caster.normals, heightInPicture(caster), kHorizonAzimuths, 1);
+    return caster;
 }
 
-// Rows of the pixels' predictions where the horizon hides lights.
-void hideLights(const HorizonMap& horizon, std::span<const uint32_t> pixels, std::span<const glm::vec3> lights,
+// Rows of the pixels' predictions where the caster hides lights.
+void hideLights(const Surface& caster, std::span<const uint32_t> pixels, const std::vector<Light>& lights,
                 Eigen::MatrixXf& predicted)
 {
-    for (size_t i = 0; i < lights.size(); ++i) {
-        const glm::vec4 lookup = horizonLookup(lights[i], horizon.azimuths);
-        for (size_t p = 0; p < pixels.size(); ++p) {
+    const PixelLights met(caster, lights, kFront);
+    for (size_t p = 0; p < pixels.size(); ++p) {
+        for (size_t i = 0; i < lights.size(); ++i) {
             predicted.block<3, 1>(static_cast<Eigen::Index>(3 * p), static_cast<Eigen::Index>(i)) *=
-                visibilityOf(horizon, lookup, pixels[p]);
+                met.at(i, pixels[p]).share;
         }
     }
 }
@@ -160,14 +204,6 @@ double predictedPsnr(const Surface& surface, const LeftOut& leftOut, ResidualCho
     return layer != ResidualChoice::none && fit.isKept ? fit.layerPsnr : fit.brdfPsnr;
 }
 
-std::string whyNoShadows(const Measurement& measurement, const LeftOut& leftOut)
-{
-    if (!leftOut.whyNot.empty() || leftOut.shadedPixels == 0) {
-        return leftOut.whyNot;
-    }
-    return measurement.prepared.nearField ? "lights are near or the camera has a lens" : "";
-}
-
 } // namespace
 
 CastShadows findCastShadows(const Measurement& measurement, ObservationBlocks& blocks, LeftOut leftOut,
@@ -178,7 +214,7 @@ CastShadows findCastShadows(const Measurement& measurement, ObservationBlocks& b
     CastShadows shadows;
     CastShadowReport& report = shadows.report;
     shadows.leftOut = std::move(leftOut);
-    report.whyNot = whyNoShadows(measurement, shadows.leftOut);
+    report.whyNot = shadows.leftOut.whyNot;
     if (!report.whyNot.empty() || shadows.leftOut.shadedPixels == 0) {
         return shadows;
     }
@@ -189,12 +225,12 @@ CastShadows findCastShadows(const Measurement& measurement, ObservationBlocks& b
         return shadows;
     }
     const std::vector<size_t> all = lightsWithout(shadows.leftOut.unseen, kParts);
+    const std::vector<Light> lights = unitLights(surface);
     LeftOut hidden = shadows.leftOut;
     const auto hideUnseen = [&](size_t part) {
-        const Image height = heightBy(surface.normals, thinned, lightsWithout(hidden.unseen, part));
-        const HorizonMap horizon = horizonMap(surface.normals, height, kHorizonAzimuths, 1);
+        const Surface caster = casterBy(measurement, thinned, lightsWithout(hidden.unseen, part));
         for (size_t fold = part; fold < hidden.unseen.folds.size(); fold += kParts) {
-            hideLights(horizon, hidden.rows.pixels, thinned.grid.lights, hidden.unseen.predicted[fold]);
+            hideLights(caster, hidden.rows.pixels, lights, hidden.unseen.predicted[fold]);
         }
     };
     report.psnr = predictedPsnr(surface, shadows.leftOut, layer);
@@ -203,17 +239,17 @@ CastShadows findCastShadows(const Measurement& measurement, ObservationBlocks& b
     if (report.shadowedPsnr <= report.psnr) {
         return shadows;
     }
-    Image whole;
+    Surface whole;
     parallelFor(kParts + 1 - kFirstParts, 1, threads, [&](size_t i, size_t) {
         const size_t part = kFirstParts + i;
-        part == kParts ? void(whole = heightBy(surface.normals, thinned, all)) : hideUnseen(part);
+        part == kParts ? void(whole = casterBy(measurement, thinned, all)) : hideUnseen(part);
     });
     report.shadowedPsnr = predictedPsnr(surface, hidden, layer);
     report.areKept = report.shadowedPsnr > report.psnr + kShadowMargin;
     if (report.areKept) {
-        shadows.horizon = horizonMap(surface.normals, whole, kHorizonAzimuths, threads);
-        hideLights(shadows.horizon, hidden.rows.pixels, thinned.grid.lights, hidden.rows.predicted);
-        shadows.height = std::move(whole);
+        hideLights(whole, hidden.rows.pixels, lights, hidden.rows.predicted);
+        shadows.height = std::move(whole.height);
+        shadows.horizon = std::move(whole.horizon);
         shadows.leftOut = std::move(hidden);
     }
     return shadows;

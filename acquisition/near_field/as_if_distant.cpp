@@ -80,14 +80,15 @@ NormalMap nextGuess(const NormalMap& guess, NormalMap found, const NearField& ne
     return found;
 }
 
-namespace {
-
 // A point is P = C + s r: C the camera at (0, 0, d), r = (u, v, -d) the ray through the plane at (u, v), s = 1 - h / d
 // for the height h. Along the surface n.dP = 0, so that d(log s)/du = -n.x / n.r, and likewise v. q = -d log s has the
 // slopes dq/du = -n.x / (n.z - (n.x u + n.y v) / d): those of an orthographic surface whose normals are
 // (n.x, n.y, n.z - (n.x u + n.y v) / d).
 NormalMap withoutLens(NormalMap normals, const NearField& near)
 {
+    if (std::isinf(near.cameraDistance)) {
+        return normals;
+    }
     const float distance = static_cast<float>(near.cameraDistance);
     for (int y = 0; y < normals.height; ++y) {
         for (int x = 0; x < normals.width; ++x) {
@@ -100,15 +101,17 @@ NormalMap withoutLens(NormalMap normals, const NearField& near)
     return normals;
 }
 
-} // namespace
-
 Image heightBefore(const NormalMap& normals, const NearField& near, int threads)
+{
+    IntegrationOptions options;
+    options.threads = threads;
+    return heightOfIntegral(normals, heightFromNormals(withoutLens(normals, near), options).height, near);
+}
+
+Image heightOfIntegral(const NormalMap& normals, Image height, const NearField& near)
 {
     const bool hasLens = std::isfinite(near.cameraDistance);
     const float distance = static_cast<float>(near.cameraDistance);
-    IntegrationOptions options;
-    options.threads = threads;
-    Image height = heightFromNormals(hasLens ? withoutLens(normals, near) : normals, options).height;
     const float plane = outlineHeight(normals, height);
     for (size_t pixel = 0; pixel < height.values.size(); ++pixel) {
         const float q = normals.confidence[pixel] > 0 ? height.values[pixel] - plane : 0;

@@ -32,4 +32,9 @@ NormalMap nextGuess(const NormalMap& guess, NormalMap found, const NearField& ne
 // outline, whose mean is 0; 0 where there is no normal.
 Image heightBefore(const NormalMap& normals, const NearField& near, int threads);
 
+// Its two parts: the normals whose orthographic integral q is, of an object before near's camera, and the height of q,
+// which stands for any constant.
+NormalMap withoutLens(NormalMap normals, const NearField& near);
+Image heightOfIntegral(const NormalMap& normals, Image q, const NearField& near);
+
 } // namespace nacre

@@ -2,16 +2,20 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <optional>
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
 #include "acquisition/cast_shadows/full_height.h"
 #include "acquisition/cast_shadows/shadow_height.h"
+#include "acquisition/cast_shadows/shadow_lines.h"
 #include "engine/files/hash_random.h"
 #include "engine/surface/height_from_normals.h"
 #include "engine/surface/horizon.h"
+#include "engine/surface/object_places.h"
 #include "shared/glsl.h"
+#include "tests/support/ray_cast.h"
 
 namespace nacre {
 namespace {
@@ -58,9 +62,10 @@ std::vector<glm::vec3> ringOfLights()
 
 LitGrid gridOf(const Image& height)
 {
-    LitGrid grid{flatNormals(height.width), ringOfLights(), {}};
+    LitGrid grid{flatNormals(height.width), {}, {}};
     const HorizonMap horizon = horizonMap(grid.normals, height);
-    for (const glm::vec3& light : grid.lights) {
+    for (const glm::vec3& light : ringOfLights()) {
+        grid.lights.emplace_back(light, 0);
         const glm::vec4 lookup = horizonLookup(light, horizon.azimuths);
         for (size_t pixel = 0; pixel < height.values.size(); ++pixel) {
             grid.states.push_back(visibilityOf(horizon, lookup, pixel) > 0.5f ? LightState::lit : LightState::cast);
@@ -100,6 +105,91 @@ TEST(ShadowHeight, ABlockStandsAsHighAsItsShadowsAreLong)
     EXPECT_NEAR(stepOf(heightFromShadows(grid, allLights(), 1)), kTall, 0.15 * kTall);
 }
 
+// The block on its floor under lights with places, before a camera with a lens. Axis and origin of the grid are not
+// those of space: its first pixel is (-31.5, 31.5) there.
+LitGrid placedGrid(std::optional<float> lightDistance, std::optional<glm::dvec3> camera)
+{
+    LitGrid grid{flatNormals(), {}, {}};
+    const Image height = blockHeight(kTall);
+    for (const glm::vec3& direction : ringOfLights()) {
+        glm::dvec4 light = lightDistance ? glm::dvec4(*lightDistance * direction, 1) : glm::dvec4(direction, 0);
+        for (int y = 0; y < kSide; ++y) {
+            for (int x = 0; x < kSide; ++x) {
+                grid.states.push_back(test::isHidden(height, camera, x, y, light) ? LightState::cast : LightState::lit);
+            }
+        }
+        // (X, w) -> (X - axis w, w - X.z / d), and the axis added again.
+        const glm::dvec3 axis = camera ? glm::dvec3(camera->x, camera->y, 0) : glm::dvec3(0);
+        const glm::dvec3 fromAxis = glm::dvec3(light) - light.w * axis;
+        const double w = light.w - (camera ? fromAxis.z / camera->z : 0);
+        const glm::dvec3 first(-31.5, 31.5, 0);
+        grid.lights.emplace_back(glm::vec3(fromAxis + w * (axis - first)), static_cast<float>(w));
+    }
+    grid.cameraDistance = camera ? camera->z : grid.cameraDistance;
+    return grid;
+}
+
+const glm::dvec3 kCamera(10, -4, 110); // 32 degrees
+
+TEST(ShadowHeight, KnowsWhereNearLightsAndTheCameraStand)
+{
+    const double q = -kCamera.z * std::log(1 - kTall / kCamera.z); // of the top, by the normals' integral
+    const LitGrid near = placedGrid(90.0f, {});
+    const Image height = heightFromShadows(near, allLights(), 1);
+    EXPECT_NEAR(stepOf(height), kTall, 0.15 * kTall);
+    EXPECT_NEAR(outlineHeight(near.normals, height), 0, 1e-3);
+    EXPECT_NEAR(stepOf(heightFromShadows(placedGrid({}, kCamera), allLights(), 1)), q, 0.15 * kTall);
+    EXPECT_NEAR(stepOf(heightFromShadows(placedGrid(90.0f, kCamera), allLights(), 1)), q, 0.15 * kTall);
+}
+
+// In space, whatever the heights are.
+TEST(GrazingRay, GoesFromItsPixelPastTheOtherToTheLight)
+{
+    std::vector<double> height(size_t{kSide} * kSide);
+    for (size_t i = 0; i < height.size(); ++i) {
+        height[i] = 5 + 5 * std::sin(0.37 * static_cast<double>(i));
+    }
+    const auto placeOf = [&](uint32_t pixel, double q, bool hasLens) {
+        const glm::dvec2 seen(pixel % kSide - 31.5, 31.5 - pixel / kSide), axis(kCamera);
+        const double z = hasLens ? kCamera.z * (1 - std::exp(-q / kCamera.z)) : q;
+        return hasLens ? glm::dvec3(axis + (seen - axis) * (1 - z / kCamera.z), z) : glm::dvec3(seen, z);
+    };
+    for (const bool hasLens : {false, true}) {
+        for (const std::optional<float> distance : {std::optional<float>(), std::optional(60.0f)}) {
+            const LitGrid grid = placedGrid(distance, hasLens ? std::optional(kCamera) : std::optional<glm::dvec3>());
+            for (size_t light = 0; light < kLights; ++light) {
+                const glm::dvec3 direction(ringOfLights()[light]);
+                const std::vector<GrazingRay> rays = shadowRays(grid, light, height);
+                EXPECT_GT(rays.size(), 50u);
+                for (const GrazingRay& ray : rays) {
+                    const glm::dvec3 from = placeOf(ray.second, height[ray.second], hasLens),
+                                     past = placeOf(ray.first, height[ray.second] + ray.rise, hasLens);
+                    const glm::dvec3 towards =
+                        distance ? glm::normalize(static_cast<double>(*distance) * direction - from) : direction;
+                    // What casts ends half a step further on, and both pixels lie half a pixel from their line at most.
+                    EXPECT_LT(glm::length(glm::cross(past - from, towards)), 1.2) << hasLens << distance.has_value();
+                }
+            }
+        }
+    }
+}
+
+// Lit ground behind a block that is not there.
+TEST(GrazingRay, LitPixelsContradictWhatStandsInTheirLight)
+{
+    const LitGrid grid = gridOf(blockHeight(0));
+    const Image block = blockHeight(kTall);
+    const std::vector<double> flat(block.values.size(), 0.0), tall(block.values.begin(), block.values.end());
+    EXPECT_TRUE(contradictedRays(grid, 0, flat).empty());
+    const std::vector<GrazingRay> rays = contradictedRays(grid, 0, tall);
+    // 24 rows, as far as the shadow reaches at 50 degrees: 10 pixels.
+    EXPECT_NEAR(static_cast<double>(rays.size()), 24 * kTall * std::tan(0.7), 24 * 1.5);
+    for (const GrazingRay& ray : rays) {
+        EXPECT_TRUE(isOnBlock(ray.first % kSide, ray.first / kSide));
+        EXPECT_FALSE(isOnBlock(ray.second % kSide, ray.second / kSide));
+    }
+}
+
 TEST(ShadowHeight, WhereNothingCastsAShadowTheNormalsHeightStays)
 {
     const LitGrid grid = gridOf(blockHeight(0));
@@ -127,7 +217,7 @@ TEST(ShadowHeight, ForetellsTheShadowsOfLightsThatItHasNotSeen)
     const HorizonMap horizon = horizonMap(grid.normals, height);
     size_t cast = 0, missed = 0, invented = 0;
     for (size_t light = 1; light < kLights; light += 2) {
-        const glm::vec4 lookup = horizonLookup(grid.lights[light], horizon.azimuths);
+        const glm::vec4 lookup = horizonLookup(glm::vec3(grid.lights[light]), horizon.azimuths);
         for (size_t pixel = 0; pixel < height.values.size(); ++pixel) {
             const bool isCast = grid.state(pixel, light) == LightState::cast,
                        isForetold = visibilityOf(horizon, lookup, pixel) <= 0.5f;

@@ -211,6 +211,7 @@ TEST(NearFieldSlow, TheChainRelightsUnderNearLights)
     writeSynthCapture(folder / "c", makeSynthScene(nearCapture()), false);
     AcquireOptions acquiring;
     acquiring.residual.choice = ResidualChoice::automatic;
+    acquiring.castShadows = true;
     CaptureOptions far;
     far.lightDistance = std::numeric_limits<double>::infinity();
     const Acquisition placed = acquire(loadCapture(folder / "c"), acquiring, kSilent),
@@ -222,9 +223,28 @@ TEST(NearFieldSlow, TheChainRelightsUnderNearLights)
     // 1.1; 2.5 where each guess is the last one's answer, and swings.
     EXPECT_LT(angularError(placed.surface.normals, truth, capture.mask).mean, 1.6);
     EXPECT_EQ(distant.surface.lights[7].light.distance, std::numeric_limits<float>::infinity());
-    EXPECT_TRUE(distant.surface.height.values.empty());
     // Of lights left out, by the BRDF alone.
     EXPECT_GT(placed.residual.fit.brdfPsnr, distant.residual.fit.brdfPsnr + 2);
+    EXPECT_TRUE(placed.surface.castsShadows);
+    EXPECT_GT(placed.shadows.shadowedPsnr, placed.shadows.psnr + 1);
+}
+
+TEST(NearFieldSlow, TheChainRelightsThroughALens)
+{
+    const TempFolder folder;
+    SynthOptions options = nearCapture();
+    options.shape = SynthShape::sphere;
+    options.lightDistance = 0;
+    options.fieldOfView = 30;
+    options.material = SynthOptions().material; // glossy
+    writeSynthCapture(folder / "c", makeSynthScene(options), false);
+    AcquireOptions acquiring;
+    acquiring.residual.choice = ResidualChoice::automatic;
+    const Acquisition lens = acquire(loadCapture(folder / "c"), acquiring, kSilent);
+    ASSERT_TRUE(lens.surface.camera);
+    EXPECT_NEAR(lens.surface.camera->z * extentOf(lens.surface.normals).width, 48 / std::tan(glm::radians(15.0)), 2);
+    // 34 dB where each pixel is drawn as if it were seen along z.
+    EXPECT_GT(lens.residual.fit.brdfPsnr, 38);
 }
 
 TEST(NearField, DistantLightsStayDistant)
