@@ -69,6 +69,9 @@ void applyOptions(LayoutContents& contents, const CaptureOptions& options)
         contents.capture.mirrorSphere = namedSphere("mirror sphere", options.mirrorSphere, contents);
         replaceDirections(contents.capture);
     }
+    for (const fs::path& more : options.moreMirrorSpheres) {
+        addMirrorSphere(more, contents);
+    }
     if (!options.diffuseSphere.empty()) {
         contents.capture.diffuseSphere = namedSphere("diffuse sphere", options.diffuseSphere, contents);
     }

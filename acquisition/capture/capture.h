@@ -63,6 +63,7 @@ struct SpherePhotographs {
     std::filesystem::path maskFile; // empty where the circle is given
     std::optional<Circle> circle;
     std::optional<SphereInPicture> inPicture;
+    std::vector<SphereInPicture> beside; // further ones in the same pictures
 };
 
 inline constexpr double kWidestView = 120; // degrees: what a pixel shows is far from a plane beyond it
@@ -117,6 +118,7 @@ struct CaptureOptions {
     std::filesystem::path mask;
     std::filesystem::path smooth;       // picture that is white where normals are to be smoothed in
     std::filesystem::path mirrorSphere; // folder of photographs and a mask, or in-picture:X,Y,W,H[,MASK]
+    std::vector<std::filesystem::path> moreMirrorSpheres; // in-picture:X,Y,W,H[,MASK], beside one of these
     std::filesystem::path diffuseSphere;
     std::vector<std::string> skip; // names of photographs, with or without extension
     std::optional<OffsetChoice> offset;

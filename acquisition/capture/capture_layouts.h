@@ -60,6 +60,9 @@ void placeLights(LayoutContents& contents, const CaptureOptions& options);
 SpherePhotographs namedSphere(const std::string& name, const std::filesystem::path& specification,
                               LayoutContents& contents);
 
+// A further mirror sphere in pictures that show one. Throws Error (usage) where either is not in the picture.
+void addMirrorSphere(const std::filesystem::path& specification, LayoutContents& contents);
+
 // The checks that need picture headers alone: sizes, one transfer curve, EXIF exposure times. Fills size and curve.
 void examineHeaders(LayoutContents& contents, const std::optional<TransferCurve>& chosen);
 

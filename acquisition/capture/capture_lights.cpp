@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <numeric>
 #include <set>
@@ -222,6 +223,9 @@ void placeLights(LayoutContents& contents, const CaptureOptions& options)
     std::vector<glm::vec3> vectors = std::move(capture.lightPlaces);
     capture.lightPlaces.clear();
     capture.lightDistance = distance;
+    for (Light& light : capture.lights) { // their own count where nobody says else
+        light.distance = distance ? std::numeric_limits<float>::infinity() : light.distance;
+    }
     capture.fieldOfView = options.fieldOfView ? options.fieldOfView : capture.fieldOfView;
     if (distance || !width) {
         return;
@@ -241,14 +245,39 @@ std::string rectangleOf(const SphereInPicture& sphere)
     return fmt::format("{},{},{},{}", sphere.x, sphere.y, sphere.width, sphere.height);
 }
 
+namespace {
+
+// A sphere's mask beside the photographs is not the object's.
+void dropMask(const SphereInPicture& sphere, LayoutContents& contents)
+{
+    std::error_code ignored;
+    std::erase_if(contents.masks, [&](const fs::path& mask) { return fs::equivalent(mask, sphere.mask, ignored); });
+}
+
+} // namespace
+
+void addMirrorSphere(const fs::path& specification, LayoutContents& contents)
+{
+    const std::optional<SphereInPicture> sphere = sphereInPicture("mirror sphere", specification);
+    std::optional<SpherePhotographs>& first = contents.capture.mirrorSphere;
+    if (!sphere || !first || !first->inPicture) {
+        throw Error("",
+                    fmt::format("of several mirror spheres, {} is not in the object's own photographs",
+                                sphere ? "the first" : specification.string()),
+                    "in-picture:X,Y,W,H for each: how they stand to each other places the lights", Error::kUsage);
+    }
+    dropMask(*sphere, contents);
+    first->beside.push_back(*sphere);
+    first->source += " and at " + rectangleOf(*sphere);
+}
+
 SpherePhotographs namedSphere(const std::string& name, const fs::path& specification, LayoutContents& contents)
 {
     const std::optional<SphereInPicture> sphere = sphereInPicture(name, specification);
     if (!sphere) {
         return readSphereFolder(specification);
     }
-    std::error_code ignored;
-    std::erase_if(contents.masks, [&](const fs::path& mask) { return fs::equivalent(mask, sphere->mask, ignored); });
+    dropMask(*sphere, contents);
     return photographsOfSphere(*sphere, contents.capture);
 }
 

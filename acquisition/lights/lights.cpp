@@ -11,9 +11,11 @@
 
 #include "acquisition/capture/capture_maps.h"
 #include "acquisition/capture/exposure_merge.h"
+#include "acquisition/lights/mirror_rays.h"
 #include "acquisition/lights/mirror_sphere.h"
 #include "acquisition/lights/sphere_in_picture.h"
 #include "acquisition/lights/sphere_outline.h"
+#include "acquisition/near_field/near_field.h"
 #include "engine/files/error.h"
 #include "engine/files/measures.h"
 #include "engine/files/parallel_for.h"
@@ -90,17 +92,58 @@ Circle outlineOf(const SpherePhotographs& sphere, const Capture& capture)
     return fitCircle(mask, header.width, header.height, sphere.maskFile);
 }
 
-std::vector<Light> directionsFromMirror(const Capture& capture, int threads)
+std::vector<Circle> outlinesOf(const SpherePhotographs& sphere, const Capture& capture)
+{
+    std::vector<Circle> outlines{outlineOf(sphere, capture)};
+    for (const SphereInPicture& beside : sphere.beside) {
+        outlines.push_back(circleInPicture(beside, capture));
+    }
+    return outlines;
+}
+
+// From where the highlight lies on a sphere that stands beside the object, in the middle of which all else is.
+MirrorRay rayOf(const Highlight& highlight, const Circle& outline, const SpherePhotographs& sphere,
+                const Capture& capture, const ObjectExtent& extent)
+{
+    MirrorRay ray{glm::dvec3(0), lightFromHighlight(highlight, outline)};
+    if (sphere.inPicture) {
+        const FileWindow& window = capture.window;
+        const glm::dvec2 at =
+            (glm::dvec2(highlight.x, highlight.y) - glm::dvec2(window.x, window.y)) / static_cast<double>(window.box);
+        const double z = sphereNormal(outline, highlight.x, highlight.y).z * outline.radius / window.box;
+        ray.from = glm::dvec3(at.x - extent.middle.x, extent.middle.y - at.y, z) / extent.width;
+    }
+    return ray;
+}
+
+MirrorLights lightsFromMirror(const Capture& capture, int threads)
 {
     const SpherePhotographs& sphere = *capture.mirrorSphere;
-    std::vector<Light> lights(sphere.photographs.size());
-    const Circle outline = outlineOf(sphere, capture);
-    parallelFor(lights.size(), 1, threads, [&](size_t first, size_t) {
+    const std::vector<Circle> outlines = outlinesOf(sphere, capture);
+    const ObjectExtent extent = extentOf(capture);
+    std::vector<std::vector<MirrorRay>> rays(sphere.photographs.size());
+    parallelFor(rays.size(), 1, threads, [&](size_t first, size_t) {
         const std::filesystem::path& file = sphere.photographs[first].exposures.front().file;
         const MergedPhotograph merged = loadMerged(sphere.photographs[first], capture);
-        lights[first].direction = lightFromHighlight(findHighlight(merged.radiance, outline, file), outline);
+        for (const Circle& outline : outlines) {
+            rays[first].push_back(
+                rayOf(findHighlight(merged.radiance, outline, file), outline, sphere, capture, extent));
+        }
     });
-    return lights;
+    return lightsOfRays(rays, sphere.inPicture ? capture.lightDistance : std::numeric_limits<double>::infinity());
+}
+
+void addMirrorLights(const Capture& capture, int threads, Rig& rig)
+{
+    MirrorLights found = lightsFromMirror(capture, threads);
+    rig.lights = std::move(found.lights);
+    rig.directionsFrom = capture.mirrorSphere->source.string() + (found.placed.empty() ? "" : ", " + found.placed);
+    if (found.apart > kLargestSphereTurn) {
+        rig.warnings.push_back({FindingCode::spheresDisagree,
+                                fmt::format("the mirror spheres' rays pass the lights by {:.1f} degrees; check the "
+                                            "outlines (masks) of the spheres",
+                                            found.apart)});
+    }
 }
 
 // One factor for all lights and channels, so that colour and unevenness stay.
@@ -207,8 +250,7 @@ Rig calibrateLights(const Capture& capture, const CalibrationOptions& options)
         rig.lights = capture.lights;
         rig.directionsFrom = capture.lightsSource + (capture.lightsOrder.empty() ? "" : ", " + capture.lightsOrder);
     } else if (capture.mirrorSphere) {
-        rig.lights = directionsFromMirror(capture, options.threads);
-        rig.directionsFrom = capture.mirrorSphere->source.string();
+        addMirrorLights(capture, options.threads, rig);
     } else {
         throw Error(capture.folder, "says nothing of its lights",
                     "light directions, photographs of a mirror sphere, or a rig");

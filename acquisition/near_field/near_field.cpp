@@ -81,6 +81,12 @@ void requireBefore(const Capture& capture, size_t photograph)
     }
 }
 
+bool arePlaced(const std::vector<Light>& lights)
+{
+    return !lights.empty() &&
+           std::all_of(lights.begin(), lights.end(), [](const Light& light) { return std::isfinite(light.distance); });
+}
+
 } // namespace
 
 ObjectExtent extentOf(const Capture& capture)
@@ -107,6 +113,12 @@ std::optional<NearField> nearFieldOf(const Capture& capture, const std::vector<s
             requireBefore(capture, photograph);
             nearest = std::min<double>(nearest, glm::length(place));
             near.lights.push_back(static_cast<float>(width) * place);
+        }
+    } else if (arePlaced(lights)) {
+        for (size_t i = 0; i < lights.size(); ++i) {
+            requireReachable(capture, photographs[i], lights[i].distance);
+            nearest = std::min<double>(nearest, lights[i].distance);
+            near.lights.push_back(static_cast<float>(width) * lights[i].distance * lights[i].direction);
         }
     } else if (capture.lightDistance && std::isfinite(*capture.lightDistance)) {
         requireReachable(capture, photographs.front(), *capture.lightDistance);
@@ -153,8 +165,9 @@ std::vector<Light> placedLights(const Capture& capture, const std::vector<size_t
     const float width = static_cast<float>(extentOf(capture).width);
     const float distance = glm::length(near->lights.front() - depth);
     for (size_t i = 0; i < lights.size(); ++i) {
-        const glm::vec3 said =
-            capture.lightPlaces.empty() ? distance * lights[i].direction : width * capture.lightPlaces[photographs[i]];
+        const glm::vec3 said = !capture.lightPlaces.empty()        ? width * capture.lightPlaces[photographs[i]]
+                               : std::isfinite(lights[i].distance) ? width * lights[i].distance * lights[i].direction
+                                                                   : distance * lights[i].direction;
         const glm::vec3 place = said + depth;
         lights[i].direction = glm::normalize(place);
         lights[i].distance = glm::length(place) / width;

@@ -28,8 +28,8 @@ struct NearField {
 // Of the capture's mask.
 ObjectExtent extentOf(const Capture& capture);
 
-// What the capture itself says of `lights`, which are those of `photographs`: their places, or one distance of all from
-// the object's middle; its field of view. None where camera and lights are so far that
+// What the capture itself says of `lights`, which are those of `photographs`: their places, the lights' own distances,
+// or one distance of all from the object's middle; its field of view. None where camera and lights are so far that
 // directions towards them turn by less than kHarmlessTurn over the object. Throws Error (data) where a light stands
 // inside the object, behind it, or so far that units must have been mixed.
 std::optional<NearField> nearFieldOf(const Capture& capture, const std::vector<size_t>& photographs,

@@ -101,8 +101,10 @@ void CalibrationArguments::addTo(CLI::App& command)
     command.add_option("CAPTURE", folder, "Folder of photographs")->required();
     command
         .add_option(
-            "--mirror-sphere", capture.mirrorSphere,
-            "Mirror sphere, for directions of the lights: folder of its photographs, or box in the capture's own")
+            "--mirror-sphere", mirrorSpheres,
+            "Mirror sphere, for directions of the lights: folder of its photographs, or box in the capture's own; "
+            "several boxes, one each, for the lights' places")
+        ->allow_extra_args(false)
         ->option_text("DIR|in-picture:X,Y,W,H[,MASK]");
     command
         .add_option("--diffuse-sphere", capture.diffuseSphere,
@@ -227,6 +229,10 @@ Capture CalibrationArguments::load()
             "one of them: a width in the unit of the lights' places, or their distance in widths", Error::kUsage);
     }
     requireView(capture.fieldOfView);
+    if (!mirrorSpheres.empty()) {
+        capture.mirrorSphere = mirrorSpheres.front();
+        capture.moreMirrorSpheres = {mirrorSpheres.begin() + 1, mirrorSpheres.end()};
+    }
     Capture loaded = loadCapture(folder, capture);
     if (loaded.lights.empty() && !loaded.mirrorSphere) {
         throw Error(folder, "says nothing of its lights",

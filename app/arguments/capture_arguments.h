@@ -2,6 +2,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 
@@ -16,6 +17,7 @@ TransferCurve curveFromName(const std::string& name);
 struct CalibrationArguments {
     std::filesystem::path folder;
     CaptureOptions capture;
+    std::vector<std::string> mirrorSpheres; // for capture
     std::string transfer;
     std::string offset;
     std::string lightDistance;

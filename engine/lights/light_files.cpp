@@ -67,17 +67,20 @@ LightFile loadLightsJson(const fs::path& file)
     const std::vector<JsonNode> nodes = root.at("lights").items();
     LightFile result;
     for (const JsonNode& node : nodes) {
-        node.allowKeys({"photograph", "direction", "irradiance"});
+        node.allowKeys({"photograph", "direction", "irradiance", "distance"});
         if (node.has("photograph") != nodes[0].has("photograph") ||
-            node.has("irradiance") != nodes[0].has("irradiance")) {
+            node.has("irradiance") != nodes[0].has("irradiance") || node.has("distance") != nodes[0].has("distance")) {
             throw node.error("has other keys than lights[0]",
-                             "a photograph and an irradiance for all lights or for none");
+                             "a photograph, an irradiance and a distance for all lights or for none");
         }
         Light light{directionOf(node.at("direction")), glm::vec3(1)};
         result.vectors.push_back(node.at("direction").vector3());
         if (const auto irradiance = node.find("irradiance")) {
             light.irradiance = irradianceOf(*irradiance);
             result.irradianceGiven = true;
+        }
+        if (const auto distance = node.find("distance")) {
+            light.distance = lightDistanceOf(*distance);
         }
         if (const auto photograph = node.find("photograph")) {
             result.photographs.push_back(photograph->text());
@@ -215,6 +218,15 @@ glm::vec3 irradianceOf(const JsonNode& node)
     return e;
 }
 
+float lightDistanceOf(const JsonNode& node)
+{
+    if (!(node.number() >= kNearestLight)) {
+        throw node.error(fmt::format("is {:g}, inside the object", node.number()),
+                         fmt::format("{} widths of the object or more", kNearestLight));
+    }
+    return static_cast<float>(node.number());
+}
+
 void saveLightFile(const fs::path& file, const LightFile& lights)
 {
     using nlohmann::json;
@@ -227,6 +239,9 @@ void saveLightFile(const fs::path& file, const LightFile& lights)
         }
         if (lights.irradianceGiven) {
             light["irradiance"] = {irradiance.x, irradiance.y, irradiance.z};
+        }
+        if (std::isfinite(lights.lights[i].distance)) {
+            light["distance"] = lights.lights[i].distance;
         }
         list.push_back(std::move(light));
     }

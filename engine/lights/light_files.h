@@ -38,6 +38,8 @@ std::vector<glm::vec3> loadIrradiances(const std::filesystem::path& file);
 // Three numbers in JSON, checked alike.
 glm::vec3 directionOf(const JsonNode& node);
 glm::vec3 irradianceOf(const JsonNode& node);
+// Of a light from the object's middle, in widths of the object. Throws Error (data) where it is inside.
+float lightDistanceOf(const JsonNode& node);
 
 // The "nacre lights" JSON; without irradiances where they are not given.
 void saveLightFile(const std::filesystem::path& file, const LightFile& lights);

@@ -8,6 +8,7 @@
 #include "engine/files/parallel_for.h"
 #include "engine/files/strict_json.h"
 #include "engine/files/whole_file.h"
+#include "engine/lights/light_files.h"
 #include "engine/surface/surface.h"
 
 namespace nacre {
@@ -276,11 +277,7 @@ Light lightOf(const JsonNode& node)
 {
     Light light{node.at("direction").vector3(), node.at("irradiance").vector3()};
     if (const auto distance = node.find("distance")) {
-        if (!(distance->number() >= kNearestLight)) {
-            throw distance->error(fmt::format("is {:g}, inside the object", distance->number()),
-                                  fmt::format("{} widths of the object or more", kNearestLight));
-        }
-        light.distance = static_cast<float>(distance->number());
+        light.distance = lightDistanceOf(*distance);
     }
     return light;
 }

@@ -178,7 +178,15 @@ TEST_F(LightFiles, JsonRoundTrip)
     for (size_t i = 0; i < 2; ++i) {
         expectVector(read.lights[i].direction, lights.lights[i].direction);
         EXPECT_EQ(read.lights[i].irradiance, lights.lights[i].irradiance);
+        EXPECT_TRUE(std::isinf(read.lights[i].distance));
     }
+    lights.lights[0].distance = 2.5f;
+    lights.lights[1].distance = 1;
+    saveLightFile(folder_ / "l.json", lights);
+    EXPECT_EQ(loadLightFile(folder_ / "l.json").lights[0].distance, 2.5f);
+    lights.lights[1].distance = 0.2f;
+    saveLightFile(folder_ / "l.json", lights);
+    expectError([&] { loadLightFile(folder_ / "l.json"); }, {"lights[1].distance", "0.2", "inside the object"});
 }
 
 TEST_F(LightFiles, JsonWithoutNamesAndIrradiances)

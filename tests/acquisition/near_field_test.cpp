@@ -317,6 +317,30 @@ TEST(NearField, PlacesThatNoLampHasAreRefused)
                 {"object_01.png", "3000 widths", "unit of the object's"});
 }
 
+// As two mirror spheres or a rig place them.
+TEST(NearField, LightsBringTheirOwnDistances)
+{
+    const TempFolder folder;
+    writeSynthCapture(folder / "c", makeSynthScene(fourLights()), false);
+    Capture capture = loadCapture(folder / "c");
+    capture.lightPlaces.clear();
+    for (size_t i = 0; i < capture.lights.size(); ++i) {
+        capture.lights[i].distance = 2 + static_cast<float>(i);
+    }
+    const std::vector<size_t> all{0, 1, 2, 3};
+    std::optional<NearField> near = nearFieldOf(capture, all, capture.lights);
+    ASSERT_TRUE(near);
+    const float width = static_cast<float>(extentOf(capture).width);
+    EXPECT_NEAR(glm::distance(near->lights[3], 5 * width * capture.lights[3].direction), 0, 1e-3f * width);
+    near->depth = 0.5 * width; // found later
+    const Light placed = placedLights(capture, all, capture.lights, near)[3];
+    EXPECT_NEAR(
+        glm::distance(placed.distance * placed.direction, 5.0f * capture.lights[3].direction + glm::vec3(0, 0, 0.5f)),
+        0, 1e-5);
+    capture.lights[2].distance = 0.3f;
+    expectError([&] { nearFieldOf(capture, all, capture.lights); }, {"0.30 widths", "inside"});
+}
+
 TEST(NearField, LightsInsideTheObjectAndDirectionsForPlacesAreRefused)
 {
     const TempFolder folder;

@@ -6,8 +6,10 @@
 #include <gtest/gtest.h>
 
 #include "acquisition/lights/lights.h"
+#include "acquisition/lights/mirror_rays.h"
 #include "acquisition/lights/sphere_in_picture.h"
 #include "assets/synth/calibration_spheres.h"
+#include "engine/files/hash_random.h"
 #include "engine/files/measures.h"
 #include "tests/support/expect_error.h"
 #include "tests/support/sphere_picture.h"
@@ -214,6 +216,115 @@ TEST(CircleSearch, WantsMostOfTheOutline)
         picture.values[i] = disc[i] && i % 120 < 61 ? 0.1f : 0.6f;
     }
     EXPECT_FALSE(findCircle(picture));
+}
+
+const glm::dvec3 kSpheres[] = {{0.6, 0.1, 0.05}, {-0.55, 0.2, 0.1}, {0.1, -0.7, 0}};
+
+// Rays from the first spheres to places around the object.
+std::vector<std::vector<MirrorRay>> raysTo(const std::vector<glm::dvec3>& places, size_t spheres, double noise = 0)
+{
+    std::vector<std::vector<MirrorRay>> rays;
+    uint64_t random = 3;
+    const auto draw = [&] { return noise * (static_cast<double>(nextRandom(random) % 2001) / 1000 - 1); };
+    for (const glm::dvec3& place : places) {
+        std::vector<MirrorRay>& ofLight = rays.emplace_back();
+        for (size_t k = 0; k < spheres; ++k) {
+            const glm::dvec3 direction = glm::normalize(place - kSpheres[k]);
+            ofLight.push_back({kSpheres[k], glm::normalize(direction + glm::dvec3(draw(), draw(), draw()))});
+        }
+    }
+    return rays;
+}
+
+std::vector<glm::dvec3> placesAt(double distance)
+{
+    std::vector<glm::dvec3> places;
+    for (const Light& light : lightsAround()) {
+        places.push_back(distance * glm::dvec3(light.direction));
+    }
+    return places;
+}
+
+TEST(MirrorRays, CrossWhereTheLightsStand)
+{
+    std::vector<glm::dvec3> places = placesAt(2.5);
+    places[1] *= 1.4;
+    for (const size_t spheres : {size_t{2}, size_t{3}}) {
+        const MirrorLights found = lightsOfRays(raysTo(places, spheres), {});
+        EXPECT_NEAR(found.apart, 0, 1e-4);
+        EXPECT_NE(found.placed.find("2.5 to 3.5 widths"), std::string::npos) << found.placed;
+        for (size_t i = 0; i < places.size(); ++i) {
+            const glm::dvec3 place =
+                static_cast<double>(found.lights[i].distance) * glm::dvec3(found.lights[i].direction);
+            EXPECT_NEAR(glm::distance(place, places[i]), 0, 1e-5) << i;
+        }
+    }
+}
+
+// Half a degree of error each.
+TEST(MirrorRays, OfDistantLightsAreParallelButForChance)
+{
+    const MirrorLights found = lightsOfRays(raysTo(placesAt(1e6), 3, 0.009), {});
+    EXPECT_TRUE(found.placed.empty());
+    for (size_t i = 0; i < kLights; ++i) {
+        EXPECT_TRUE(std::isinf(found.lights[i].distance));
+        EXPECT_LT(degreesBetween(found.lights[i].direction, lightsAround()[i].direction), 0.6);
+    }
+    EXPECT_GT(found.apart, 0.1);
+}
+
+TEST(MirrorRays, OneSphereAndADistanceAreEnough)
+{
+    const std::vector<glm::dvec3> places = placesAt(3);
+    const MirrorLights told = lightsOfRays(raysTo(places, 1), 3.0), untold = lightsOfRays(raysTo(places, 1), {});
+    for (size_t i = 0; i < places.size(); ++i) {
+        EXPECT_FLOAT_EQ(told.lights[i].distance, 3);
+        EXPECT_LT(degreesBetween(told.lights[i].direction, glm::vec3(glm::normalize(places[i]))), 0.01);
+        EXPECT_TRUE(std::isinf(untold.lights[i].distance));
+    }
+    EXPECT_GT(degreesBetween(untold.lights[0].direction, lightsAround()[0].direction), 5) << "from where the sphere is";
+}
+
+// Two spheres on a dark table, far apart, under lamps at 2 widths of the picture, which is all object here.
+TEST(TwoSpheresInAPicture, PlaceTheLights)
+{
+    const TempFolder folder;
+    constexpr int kWide = 620, kHigh = 230;
+    const glm::ivec2 corners[] = {{10, 20}, {415, 25}};
+    const std::vector<glm::dvec3> places = placesAt(2);
+    std::string list = fmt::format("{}\n", kLights);
+    for (int i = 0; i < kLights; ++i) {
+        Image picture(kWide, kHigh, 3, 0.02f);
+        for (const glm::ivec2& corner : corners) {
+            const glm::dvec3 centre =
+                glm::dvec3(corner.x + kSphere / 2 - kWide / 2, kHigh / 2 - corner.y - kSphere / 2, 0) / double{kWide};
+            glm::dvec3 direction = glm::normalize(places[i] - centre);
+            for (int step = 0; step < 20; ++step) { // from the point whose normal lies between it and the view
+                const glm::dvec3 normal = glm::normalize(direction + glm::dvec3(0, 0, 1));
+                direction = glm::normalize(places[i] - centre - 0.47 * kSphere / kWide * normal);
+            }
+            paste(mirrorSphereRadiance(kSphere, {glm::vec3(direction), glm::vec3(1)}, 0.01), corner.x, corner.y,
+                  calibrationSphereMask(kSphere), picture);
+        }
+        writePicture(folder / fmt::format("photo {}.png", i + 1), picture);
+        list += fmt::format("/lab/photo {}.png\n", i + 1);
+    }
+    writeText(folder / "list.lp", list);
+    CaptureOptions options;
+    options.mirrorSphere = "in-picture:5,15,202,205";
+    options.moreMirrorSpheres = {"in-picture:410,20,202,205"};
+    const Rig rig = calibrateLights(loadCapture(folder.path(), options));
+    EXPECT_NE(rig.directionsFrom.find("rays cross"), std::string::npos) << rig.directionsFrom;
+    for (size_t i = 0; i < places.size(); ++i) {
+        // Directions are good to a third of a degree (above), spheres 0.65 widths apart: 3 % of a distance of 2.
+        EXPECT_NEAR(rig.lights[i].distance, 2, 0.1) << i;
+        EXPECT_LT(degreesBetween(rig.lights[i].direction, glm::vec3(glm::normalize(places[i]))), 0.5) << i;
+    }
+    options.lightDistance = std::numeric_limits<double>::infinity();
+    EXPECT_TRUE(std::isinf(calibrateLights(loadCapture(folder.path(), options)).lights[0].distance));
+    options.moreMirrorSpheres = {folder.path()};
+    expectError([&] { loadCapture(folder.path(), options); }, {"several mirror spheres", "in-picture:X,Y,W,H for each"},
+                Error::kUsage);
 }
 
 } // namespace
