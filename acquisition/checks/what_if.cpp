@@ -104,9 +104,8 @@ std::optional<CaptureDefect> findDefect(const Observations& seen, const std::vec
     });
     std::optional<CaptureDefect> best;
     for (const CaptureDefect& trial : trials) {
-        const bool tells = trial.kind == CaptureDefect::Kind::nearLights ? trial.scatter < kTellingDistance * scatter
-                                                                         : tellsCurve(trial.scatter, scatter);
-        if (tells && (!best || trial.scatter < best->scatter)) {
+        const double telling = trial.kind == CaptureDefect::Kind::nearLights ? kTellingDistance : kTellingCurve;
+        if (trial.scatter < telling * scatter && (!best || trial.scatter < best->scatter)) {
             best = trial;
         }
     }
