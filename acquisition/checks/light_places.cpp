@@ -14,7 +14,8 @@ namespace {
 constexpr int kDistanceSteps = 5;       // third octaves nearer and further than the start
 constexpr int kDepthSteps = 6;          // in front and behind, of
 constexpr double kDepthStep = 0.05;     // widths of the object
-constexpr int kSurfaceSteps = 4;        // each leaves a third of the last one's error
+constexpr int kSurfaceSteps = 4;        // each leaves a third of the last one's error,
+constexpr int kLensSteps = 8;           // but behind a lens more: surfaces half found show distances that are not there
 constexpr size_t kPlacingTriples = 100; // of lights: medians over pixels do not need each pixel's best one
 
 // A sample whose pixels stand for squares of a picture, as a picture of such squares.
@@ -69,7 +70,8 @@ struct PlaceBench {
 void explainSurface(const PlaceBench& bench, PlaceTrial& trial)
 {
     const Observations& seen = bench.grid.seen;
-    for (int step = 0; step < kSurfaceSteps; ++step) {
+    const int steps = std::isfinite(trial.near.cameraDistance) ? kLensSteps : kSurfaceSteps;
+    for (int step = 0; step < steps; ++step) {
         const LocalLights local(bench.lights, trial.near, trial.guess.height, bench.grid.size.x);
         const Intensities distant =
             intensitiesOf(asIfDistant(seen, local, localNormals(seen, local, trial.guess.normals), 1), bench.lights);
