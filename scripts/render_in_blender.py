@@ -4,7 +4,10 @@
 import sys
 
 import bpy
+import numpy
 from mathutils import Vector
+
+numpy.bool = bool  # Debian 12's Blender 3.4 imports glTF by a name that its numpy has dropped
 
 glb, out, size, *lights = sys.argv[sys.argv.index('--') + 1:]
 width, height = (int(side) for side in size.split('x'))

@@ -21,6 +21,7 @@ constexpr double kNearDecibels = 30, kHalfDecibels = 6.0206;
 constexpr int kColourRounds = 3; // until what lobes take from each other is settled
 constexpr int kShapeRounds = 5;
 constexpr float kFirstRoughness = 0.06f, kRoughnessStep = 1.17f;
+constexpr float kMixtures[] = {0.1f, 0.2f, 0.3f, 0.4f, 0.5f, 0.6f, 0.7f, 0.8f, 0.9f};
 constexpr float kGrazingWeights[] = {0, 0.25f, 0.5f, 0.75f};
 constexpr float kIors[] = {1.33f, 1.5f, 1.8f, 2.3f, 3.3f, 6};
 constexpr float kSheenRoughnesses[] = {0.15f, 0.3f, 0.5f, 0.75f, 1};
@@ -226,7 +227,7 @@ public:
             shape.sheenRoughness = roughness;
             starts.push_back(shape);
         }
-        extend(starts, most_, best_.shape.isMetal);
+        extend(starts, most_, best_.shape.isMetal());
         return best_;
     }
 
@@ -248,7 +249,14 @@ private:
             }
             consider(variantOf(most_, 0, most_, 0), starts, 0);
         }
-        consider(metal, {{.isMetal = true}}, 0);
+        consider(metal, {{.metallic = 1}}, 0);
+        if (format_ == ExchangeFormat::gltf) {
+            std::vector<LobeShape> mixtures;
+            for (const float metallic : kMixtures) {
+                mixtures.push_back({.metallic = metallic});
+            }
+            consider(metal, mixtures, kWorthwhile);
+        }
     }
 
     // More parameters: taken where they pay.

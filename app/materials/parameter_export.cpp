@@ -138,14 +138,15 @@ std::string text(const glm::vec3& v)
 
 std::string describe(const LobeFit& fit)
 {
-    std::string words = fit.shape.isMetal ? "metal " + text(fit.colours.specular)
-                                          : fmt::format("diffuse {}, specular {}", text(fit.colours.diffuse),
-                                                        text(fit.colours.specular));
+    std::string words =
+        fit.shape.isMetal()
+            ? fmt::format("metallic {:.1f} {}", fit.shape.metallic, text(fit.colours.specular))
+            : fmt::format("diffuse {}, specular {}", text(fit.colours.diffuse), text(fit.colours.specular));
     words += fmt::format(", roughness {:.3f}", fit.shape.roughness);
-    if (fit.format == ExchangeFormat::gltf && fit.shape.specularWeight != 1 && !fit.shape.isMetal) {
+    if (fit.format == ExchangeFormat::gltf && fit.shape.specularWeight != 1 && !fit.shape.isMetal()) {
         words += fmt::format(", specular factor {:.2f}", fit.shape.specularWeight);
     }
-    if (fit.format == ExchangeFormat::standardSurface && !fit.shape.isMetal) {
+    if (fit.format == ExchangeFormat::standardSurface && !fit.shape.isMetal()) {
         words += fmt::format(", IOR {:.2f}", fit.shape.ior);
     }
     if (fit.hasSheen()) {

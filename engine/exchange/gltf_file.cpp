@@ -210,9 +210,14 @@ GltfMaterial gltfMaterialOf(const std::string& name, const LobeShape& shape, con
     GltfMaterial material{.name = name, .roughness = shape.roughness};
     material.sheenColor = colours.sheen;
     material.sheenRoughness = colours.sheen == glm::vec3(0) ? 0 : shape.sheenRoughness;
-    if (shape.isMetal) {
+    if (shape.isMetal()) {
         material.baseColor = colours.specular;
+        material.metallic = shape.metallic;
         material.ior = commonIor > 0 ? commonIor : 1.5f;
+        const float root = (material.ior - 1) / (material.ior + 1);
+        if (material.ior != 1.5f) {
+            material.specularColor = glm::vec3(kDielectricReflectance / (root * root));
+        }
         return material;
     }
     const glm::vec3 f0 = shape.specularWeight > 0 ? colours.specular / shape.specularWeight : glm::vec3(0);

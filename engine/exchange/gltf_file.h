@@ -30,7 +30,7 @@ struct GltfMaterial {
     std::optional<int> specularColorTexture{};     // sRGB
     std::optional<int> sheenColorTexture{};        // sRGB
     std::optional<int> sheenRoughnessTexture{};    // A
-    bool isCut = false;                          // pixels without alpha are not there
+    bool isCut = false;                            // pixels without alpha are not there
 };
 
 // The parameters as glTF names them. Reflectances above a dielectric's 4 % become an index of refraction, so that
@@ -53,7 +53,7 @@ struct GltfScene {
     GltfMesh mesh{};
     GltfMaterial material{};
     std::vector<std::string> images{}; // PNG files' bytes
-    float radianceScale = 1;         // what radiance of it is to be multiplied by: extras, nacre:radianceScale
+    float radianceScale = 1;           // what radiance of it is to be multiplied by: extras, nacre:radianceScale
 };
 
 // GLB, one binary chunk. Whole or not at all. Text that is no UTF-8 has its bad bytes replaced.

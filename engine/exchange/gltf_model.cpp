@@ -46,6 +46,8 @@ float sheenOf(float alpha, const LobeCosines& c)
 // Below, the sheen's distribution has no width that anyone draws (the extension: implementations clamp it).
 constexpr float kLeastSheenAlpha = 0.005f;
 
+constexpr float kDielectricF0 = 0.04f; // of index of refraction 1.5
+
 class GltfModel : public LobeModel {
 public:
     GltfModel(const LobeShape& shape, bool hasSheen)
@@ -64,13 +66,17 @@ public:
     {
         const LobeCosines c = lobeCosines(n, l, v);
         const float share = schlickShare(c), lobe = ggx(alpha_, c) * separableVisibility(alpha_, c);
-        const float grazing = shape_.isMetal ? 1 : shape_.specularWeight;
+        const float m = shape_.metallic, grazing = shape_.specularWeight;
         LobeTerms t;
-        t.specular = glm::vec3(lobe * (1 - share));
-        t.rest = glm::vec3(lobe * share * grazing);
-        if (!shape_.isMetal) {
+        if (shape_.isMetal()) { // mix(dielectric_brdf, metal_brdf, metallic) of one colour
+            const float fresnel = kDielectricF0 + (1 - kDielectricF0) * share;
+            t.specular = glm::vec3((1 - m) * (1 - fresnel) / kPi + m * lobe * (1 - share));
+            t.rest = glm::vec3(lobe * ((1 - m) * fresnel + m * share));
+        } else {
             const float fresnel = largestOf(colours.specular) * (1 - share) + share * grazing;
             t.diffuse = glm::vec3((1 - fresnel) / kPi);
+            t.specular = glm::vec3(lobe * (1 - share));
+            t.rest = glm::vec3(lobe * share * grazing);
         }
         if (hasSheen_) {
             const float most = largestOf(colours.sheen);

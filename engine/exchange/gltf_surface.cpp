@@ -57,7 +57,7 @@ public:
         float ior = 1.5f;
         for (const SurfaceLobes& l : lobes) {
             const LobeColours c = l.colours;
-            if (!l.shape.isMetal && l.shape.specularWeight > 0) {
+            if (!l.shape.isMetal() && l.shape.specularWeight > 0) {
                 ior = std::max(
                     ior, gltfIorOf(std::max({c.specular.x, c.specular.y, c.specular.z}) / l.shape.specularWeight));
             }

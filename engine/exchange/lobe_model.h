@@ -15,7 +15,10 @@ struct LobeShape {
     float specularWeight = 1;    // glTF: what the lobe reflects at grazing angles, KHR_materials_specular's factor
     float ior = 1.5f;            // standard_surface alone; glTF's reflectance at normal incidence is kS
     float sheenRoughness = 0.3f; // where there is sheen
-    bool isMetal = false;        // kD has no effect
+    // glTF: 0 to 1, where kS is its base colour if above 0; standard_surface: 0 or 1. kD then has no effect.
+    float metallic = 0;
+
+    bool isMetal() const { return metallic > 0; }
     bool operator==(const LobeShape&) const = default;
 };
 

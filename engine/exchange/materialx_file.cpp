@@ -72,9 +72,9 @@ std::string inputsOf(const LobeShape& shape, const LobeColours& colours)
         return scalar(weight, most) + colour(tint, most > 0 ? c / most : glm::vec3(1));
     };
     std::string inputs = scalar("base", 1);
-    inputs += colour("base_color", shape.isMetal ? colours.specular : colours.diffuse);
-    inputs += scalar("metalness", shape.isMetal ? 1 : 0);
-    if (shape.isMetal) {
+    inputs += colour("base_color", shape.isMetal() ? colours.specular : colours.diffuse);
+    inputs += scalar("metalness", shape.isMetal() ? 1 : 0);
+    if (shape.isMetal()) {
         inputs += scalar("specular", 1) + colour("specular_color", glm::vec3(1));
     } else {
         inputs += weighted("specular", "specular_color", colours.specular) + scalar("specular_IOR", shape.ior);

@@ -57,7 +57,7 @@ public:
           sheenAlpha_(std::max(shape.sheenRoughness, kLeastSheen))
     {
         full_ = AlbedoByCosine([this](const LobeCosines& c) { return lobe(c); });
-        if (!shape_.isMetal) {
+        if (!shape_.isMetal()) {
             const float r = (shape.ior - 1) / (shape.ior + 1), f0 = r * r;
             reflected_ =
                 AlbedoByCosine([&](const LobeCosines& c) { return lobe(c) * glm::mix(f0, 1.0f, schlickShare(c)); });
@@ -71,7 +71,7 @@ public:
                     const glm::vec3& v) const override
     {
         const LobeCosines c = lobeCosines(n, l, v);
-        LobeTerms t = shape_.isMetal ? metal(colours, c) : dielectric(colours, c);
+        LobeTerms t = shape_.isMetal() ? metal(colours, c) : dielectric(colours, c);
         if (hasSheen_) {
             const float most = std::max({colours.sheen.x, colours.sheen.y, colours.sheen.z});
             const float left = 1 - most * std::min(sheenAlbedo_.at(c.nDotV), 1.0f);

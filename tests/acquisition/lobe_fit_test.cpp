@@ -25,7 +25,7 @@ struct Judged {
 
     template <class F>
     explicit Judged(const F& f)
-        : table({90, 16, 16}, kWide), judge(
+        : table({60, 12, 12}, kWide), judge(
                                           [f](const glm::vec3& unit) {
                                               const LightView d = directionsFromUnit(kWide, unit);
                                               return InterpolatedValue{f(glm::vec3(0, 0, 1), d.l, d.v), 0};
@@ -50,20 +50,20 @@ Judged judgedLobes(ExchangeFormat format, const LobeShape& shape, const LobeColo
 // The refined grid stops within a percent of the roughness.
 TEST(LobeFit, FindsTheParametersThatMadeTheData)
 {
-    const LobeShape plastic{.roughness = 0.42f}, metal{.roughness = 0.3f, .isMetal = true};
+    const LobeShape plastic{.roughness = 0.42f}, metal{.roughness = 0.3f, .metallic = 1};
     const LobeColours coloured{{0.5f, 0.3f, 0.1f}, glm::vec3(0.04f), {}}, gold{{}, {0.9f, 0.7f, 0.3f}, {}};
     for (const auto format : {ExchangeFormat::gltf, ExchangeFormat::standardSurface}) {
         const Judged a =
             judgedLobes(format, plastic,
                         format == ExchangeFormat::gltf ? coloured : LobeColours{coloured.diffuse, glm::vec3(1), {}});
         const LobeFit first = fitLobes(a.judge, format, 1, 1);
-        EXPECT_GT(first.psnr, 50);
+        EXPECT_GT(first.psnr, 45);
         EXPECT_NEAR(first.shape.roughness, 0.42f, 0.01f);
         EXPECT_LT(glm::length(first.colours.diffuse - coloured.diffuse), 0.02f);
         const Judged b = judgedLobes(format, metal, gold);
         const LobeFit second = fitLobes(b.judge, format, 1, 1);
         EXPECT_GT(second.psnr, 45);
-        EXPECT_TRUE(second.shape.isMetal);
+        EXPECT_TRUE(second.shape.isMetal());
         EXPECT_LT(glm::length(second.colours.specular - gold.specular), 0.05f);
     }
 }
@@ -107,7 +107,7 @@ TEST(LobeModel, GltfIsReciprocalAndMakesNoEnergy)
     };
     const LobeColours colours{glm::vec3(0.5f), glm::vec3(0.04f), glm::vec3(0.3f)};
     const auto model = gltfModel({.roughness = 0.4f, .sheenRoughness = 0.5f}, true);
-    const auto white = gltfModel({.roughness = 0.4f, .isMetal = true}, false);
+    const auto white = gltfModel({.roughness = 0.4f, .metallic = 1}, false);
     double sum = 0;
     constexpr int kSamples = 20000;
     const glm::vec3 n(0, 0, 1), view = glm::normalize(glm::vec3(0.5f, 0, 1));
@@ -126,7 +126,7 @@ TEST(MaterialX, HasTheNodesInputsAndEscapesNames)
 {
     const std::string text = materialXText(
         {{"a \"b\" <\xc3\xa9>&", {.roughness = 0.3f}, {glm::vec3(0.5f), glm::vec3(0.5f), glm::vec3(0.1f)}},
-         {"a \"b\" <\xc3\xa9>&", {.isMetal = true}, {{}, glm::vec3(0.9f), {}}}},
+         {"a \"b\" <\xc3\xa9>&", {.metallic = 1}, {{}, glm::vec3(0.9f), {}}}},
         2);
     EXPECT_NE(text.find("uiname=\"a &quot;b&quot; &lt;\xc3\xa9&gt;&amp;\""), std::string::npos) << text;
     EXPECT_NE(text.find("doc=\"Radiance is to be multiplied by 2\""), std::string::npos);

@@ -32,7 +32,7 @@ Surface twoMaterials(int side)
 }
 
 const std::vector<SurfaceLobes> kLobes = {{{.roughness = 0.5f}, {glm::vec3(0.4f, 0.3f, 0.2f), glm::vec3(0.04f), {}}, 1},
-                                          {{.roughness = 0.3f, .isMetal = true}, {{}, glm::vec3(0.9f), {}}, 1}};
+                                          {{.roughness = 0.3f, .metallic = 1}, {{}, glm::vec3(0.9f), {}}, 1}};
 
 TEST(GltfExport, AnotherLibraryReadsTheReliefItsTexturesAndParameters)
 {
