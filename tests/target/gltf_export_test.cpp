@@ -47,14 +47,15 @@ TEST(GltfExport, AnotherLibraryReadsTheReliefItsTexturesAndParameters)
     const aiMesh& mesh = *read->mMeshes[0];
     EXPECT_STREQ(mesh.mName.C_Str(), "a \"quoted\" \xc3\xbc");
     ASSERT_EQ(mesh.mNumVertices, scene.mesh.positions.size());
-    EXPECT_EQ(mesh.mNumFaces, 2u * 16 * 16); // the hole is a texture's matter, since its cell has a corner
+    EXPECT_EQ(mesh.mNumFaces, 2u * (16 * 16 - 1)); // all cells but the hole
     for (unsigned i = 0; i < mesh.mNumVertices; ++i) {
         EXPECT_FLOAT_EQ(mesh.mVertices[i].x, scene.mesh.positions[i].x);
         EXPECT_FLOAT_EQ(mesh.mVertices[i].z, 2 * 0.02f); // 2 pixels of 2 cm
     }
     const aiMaterial& material = *read->mMaterials[mesh.mMaterialIndex];
     EXPECT_STREQ(material.GetName().C_Str(), "wood \"oak\", m\xc3\xa9tal <1>");
-    EXPECT_EQ(read->mNumTextures, scene.images.size());
+    EXPECT_EQ(read->mNumTextures, 3u); // Assimp 5.2 does not know specularColorTexture
+    EXPECT_EQ(scene.images.size(), 4u);
     const TempFolder pictures;
     for (unsigned i = 0; i < read->mNumTextures; ++i) {
         const aiTexture& texture = *read->mTextures[i];
@@ -76,10 +77,10 @@ TEST(GltfExport, TexturesHoldEachLabelsParameters)
     const Image normals = pictureOf(scene.material.normalTexture),
                 rough = pictureOf(scene.material.metallicRoughnessTexture),
                 base = pictureOf(scene.material.baseColorTexture);
-    EXPECT_NEAR(normals.at(5, 5, 0), 0.8f, 0.5 / 255);
-    EXPECT_NEAR(normals.at(5, 5, 2), 0.9f, 0.5 / 255);
-    EXPECT_NEAR(rough.at(2, 2, 1), 0.5f, 0.5 / 255);
-    EXPECT_NEAR(rough.at(12, 2, 1), 0.3f, 0.5 / 255);
+    EXPECT_NEAR(normals.at(5, 5, 0), 0.8f, 0.5 / 255 + 1e-6);
+    EXPECT_NEAR(normals.at(5, 5, 2), 0.9f, 0.5 / 255 + 1e-6);
+    EXPECT_NEAR(rough.at(2, 2, 1), 0.5f, 0.5 / 255 + 1e-6);
+    EXPECT_NEAR(rough.at(12, 2, 1), 0.3f, 0.5 / 255 + 1e-6);
     EXPECT_EQ(rough.at(2, 2, 2), 0.0f);
     EXPECT_EQ(rough.at(12, 2, 2), 1.0f);
     EXPECT_EQ(base.at(0, 0, 3), 0.0f);
