@@ -293,11 +293,6 @@ std::unique_ptr<LobeModel> modelOf(ExchangeFormat format, const LobeShape& shape
     return format == ExchangeFormat::gltf ? gltfModel(shape, hasSheen) : standardSurfaceModel(shape, hasSheen);
 }
 
-glm::vec3 LobeFit::evaluate(const glm::vec3& n, const glm::vec3& l, const glm::vec3& v) const
-{
-    return modelOf(format, shape, hasSheen())->evaluate(colours, n, l, v);
-}
-
 LobeFitScale fitScale(const ModelJudge& judge)
 {
     const BrdfTable& table = judge.table();

@@ -18,7 +18,6 @@ struct LobeFit {
     double corePsnr = 0;   // of the format's few parameters: what readers without extensions can show at best
 
     bool hasSheen() const { return colours.sheen != glm::vec3(0); }
-    glm::vec3 evaluate(const glm::vec3& n, const glm::vec3& l, const glm::vec3& v) const;
 };
 
 // How near parameters can come is judged against these, in the same dB.

@@ -57,8 +57,7 @@ float charlie(float alpha, const LobeCosines& c)
     return (2 + 1 / alpha) * std::pow(c.sin2H, 0.5f / alpha) / (2 * kPi);
 }
 
-// Evenly over the directions' tangent half angle in polar distance and over half the azimuths, the other half being
-// alike: rings crowd neither at the pole nor at the horizon.
+// Rings of equal shares of the projected hemisphere, over half the azimuths, the other half being alike.
 AlbedoByCosine::AlbedoByCosine(const std::function<float(const LobeCosines&)>& f)
 {
     for (int i = 0; i < kAlbedoCosines; ++i) {
@@ -66,7 +65,6 @@ AlbedoByCosine::AlbedoByCosine(const std::function<float(const LobeCosines&)>& f
         const glm::vec3 n(0, 0, 1), v(std::sqrt(1 - z * z), 0, z);
         double sum = 0;
         for (int ring = 0; ring < kAlbedoRings; ++ring) {
-            // sin^2 of the polar angle is even: each has the same share of the projected hemisphere.
             const float sine = std::sqrt((ring + 0.5f) / kAlbedoRings), cosine = std::sqrt(1 - sine * sine);
             for (int spoke = 0; spoke < kAlbedoSpokes; ++spoke) {
                 const float phi = kPi * (spoke + 0.5f) / kAlbedoSpokes;
