@@ -313,19 +313,25 @@ ModelJudge::Verdict ModelJudge::judge(const CompactBrdf& compact) const
     const auto* lobe = std::get_if<FittedLobe>(&compact);
     const BrdfTable table = lobe ? BrdfTable() : expandedTable(compact, *full_);
     const BrdfModel model = lobe ? BrdfModel(lobe->model) : BrdfModel(LambertGgx{});
-    const auto shown = [&](const glm::vec3& f, float weight) {
-        return glm::clamp(f * (weight / static_cast<float>(peak_)), 0.0f, 1.0f);
+    const double start = threadSeconds();
+    const double psnr = psnrOf([&](const BrdfMeasurement& j) {
+        return lobe ? evaluate(model, j.n, j.l, j.v) : evaluateTable(table, j.n, j.l, j.v).value;
+    });
+    const double seconds = threadSeconds() - start;
+    return {psnr, 1e9 * seconds / static_cast<double>(judges_.size())};
+}
+
+double ModelJudge::psnrOf(const std::function<glm::vec3(const BrdfMeasurement&)>& f) const
+{
+    const auto shown = [&](const glm::vec3& value, float weight) {
+        return glm::clamp(value * (weight / static_cast<float>(peak_)), 0.0f, 1.0f);
     };
     double sum = 0;
-    const double start = threadSeconds();
     for (const BrdfMeasurement& j : judges_) {
-        const glm::vec3 f = lobe ? evaluate(model, j.n, j.l, j.v) : evaluateTable(table, j.n, j.l, j.v).value;
-        const glm::vec3 miss = shown(f, j.weight) - shown(j.f, j.weight);
+        const glm::vec3 miss = shown(f(j), j.weight) - shown(j.f, j.weight);
         sum += glm::dot(miss, miss);
     }
-    const double seconds = threadSeconds() - start;
-    const double count = static_cast<double>(judges_.size());
-    return {-10 * std::log10(std::max(sum / (3 * count), 1e-12)), 1e9 * seconds / count};
+    return -10 * std::log10(std::max(sum / (3 * static_cast<double>(judges_.size())), 1e-12));
 }
 
 std::vector<BrdfMeasurement> ModelJudge::fittedPart() const

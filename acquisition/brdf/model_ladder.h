@@ -1,4 +1,5 @@
 #pragma once
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -40,6 +41,8 @@ public:
     const BrdfTable& table() const { return *full_; }
 
     Verdict judge(const CompactBrdf& model) const;
+    // dB of radiance of any f; asked for n, l and v of measurements (f is the interpolant's).
+    double psnrOf(const std::function<glm::vec3(const BrdfMeasurement&)>& f) const;
 
     // A part of what is judged, for fits; what is clipped is weighed down, since it does not show.
     std::vector<BrdfMeasurement> fittedPart() const;

@@ -16,11 +16,13 @@
 
 #include "app/arguments/destinations.h"
 #include "app/commands/commands.h"
+#include "app/materials/parameter_export.h"
 #include "engine/files/error.h"
 #include "engine/files/parallel_for.h"
 #include "engine/files/text_files.h"
 #include "engine/files/whole_file.h"
 #include "engine/loading/scene_loading.h"
+#include "engine/materials/material_specification.h"
 #include "engine/rti/ptm_file.h"
 #include "engine/rti/rti_picture.h"
 #include "engine/rti/rti_web.h"
@@ -140,6 +142,7 @@ struct ExportArguments {
     std::filesystem::path web;
     std::filesystem::path normals;
     std::filesystem::path albedo;
+    ParameterExport parameters;
     std::string ptmFormat = "lrgb";
     std::string basis = "hsh";
     std::string size;
@@ -153,6 +156,7 @@ struct ExportArguments {
     void addTo(CLI::App& command);
     // Throws usage Errors, and data Errors for outputs that cannot be written.
     void check() const;
+    bool asksNothingElse() const { return ptm.empty() && web.empty() && normals.empty() && albedo.empty(); }
 };
 
 constexpr int kFewestLights = 18; // twice the terms of the larger basis
@@ -201,9 +205,10 @@ void requireOutputs(const ExportArguments& arguments)
 {
     std::vector<fs::path> outputs = {arguments.ptm, arguments.web, arguments.normals, arguments.albedo};
     std::erase_if(outputs, [](const fs::path& output) { return output.empty(); });
-    if (outputs.empty()) {
-        throw usageError("nothing is asked for", "--ptm, --rti-web, --write-normals or --albedo");
+    if (outputs.empty() && !arguments.parameters.isAsked()) {
+        throw usageError("nothing is asked for", "--ptm, --rti-web, --write-normals, --albedo, --gltf or --materialx");
     }
+    arguments.parameters.check();
     for (size_t i = 0; i < outputs.size(); ++i) {
         if (std::find(outputs.begin(), outputs.begin() + static_cast<std::ptrdiff_t>(i), outputs[i]) !=
             outputs.begin() + static_cast<std::ptrdiff_t>(i)) {
@@ -218,7 +223,8 @@ void requireOutputs(const ExportArguments& arguments)
 
 void ExportArguments::addTo(CLI::App& command)
 {
-    command.add_option("SURFACE", surface, "Folder NAME.nacre of nacre acquire")
+    command
+        .add_option("SURFACE", surface, "Folder NAME.nacre of nacre acquire; for --gltf and --materialx any material")
         ->option_text("OUT.png|OUT.exr")
         ->required();
     command.add_option("--ptm", ptm, "Polynomial texture map to write, FILE.ptm")->option_text("FILE");
@@ -232,6 +238,15 @@ void ExportArguments::addTo(CLI::App& command)
         ->option_text("FILE");
     command.add_option("--albedo", albedo, "Colour without shading and gloss to write, .png (16 bits) or .exr")
         ->option_text("FILE");
+    command.add_option("--gltf", parameters.gltf, "Surface, or sphere of a material, in glTF's parameters, FILE.glb")
+        ->option_text("FILE");
+    command.add_option("--materialx", parameters.materialX, "Materials as MaterialX's standard_surface, FILE.mtlx")
+        ->option_text("FILE");
+    command.add_option("--balls", parameters.balls, "Balls of the materials beside those of the parameters, FILE.png")
+        ->option_text("FILE");
+    command.add_option("--width", parameters.width, "Width of --gltf in metres")->capture_default_str();
+    command.add_option("--fits", parameters.fits, "Folder of published fits (default: NACRE_FITS_DIR)")
+        ->option_text("DIR");
     command.add_option("--lights", lights, "Number of virtual lights for the fits of --ptm and --rti-web")
         ->capture_default_str();
     command.add_option("--exposure", exposure,
@@ -424,9 +439,28 @@ void exportMaps(const ExportArguments& arguments, const Surface& surface)
     }
 }
 
-void runExport(const ExportArguments& arguments)
+// Of the arguments that both kinds of export share.
+ParameterExport parametersOf(const ExportArguments& arguments)
 {
+    ParameterExport asked = arguments.parameters;
+    asked.source = arguments.surface.string();
+    asked.fits = fitsFolderFrom(asked.fits);
+    asked.threads = arguments.threads;
+    asked.quiet = arguments.quiet;
+    asked.force = arguments.force;
+    return asked;
+}
+
+void runExport(ExportArguments& arguments)
+{
+    arguments.parameters = parametersOf(arguments);
     arguments.check();
+    if (arguments.parameters.isAsked()) {
+        exportParameters(arguments.parameters);
+    }
+    if (arguments.asksNothingElse()) {
+        return;
+    }
     const Surface surface = surfaceToExport(arguments);
     exportMaps(arguments, surface);
     exportRti(arguments, surface);
