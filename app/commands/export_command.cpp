@@ -16,6 +16,7 @@
 
 #include "app/arguments/destinations.h"
 #include "app/commands/commands.h"
+#include "app/page/page_export.h"
 #include "engine/files/error.h"
 #include "engine/files/parallel_for.h"
 #include "engine/files/text_files.h"
@@ -149,6 +150,7 @@ struct ExportArguments {
     bool shadows = false;
     bool quiet = false;
     bool force = false;
+    PageArguments page;
 
     void addTo(CLI::App& command);
     // Throws usage Errors, and data Errors for outputs that cannot be written.
@@ -199,10 +201,11 @@ void requireChoices(const ExportArguments& arguments)
 
 void requireOutputs(const ExportArguments& arguments)
 {
-    std::vector<fs::path> outputs = {arguments.ptm, arguments.web, arguments.normals, arguments.albedo};
+    std::vector<fs::path> outputs = {arguments.ptm, arguments.web, arguments.normals, arguments.albedo,
+                                     arguments.page.file};
     std::erase_if(outputs, [](const fs::path& output) { return output.empty(); });
     if (outputs.empty()) {
-        throw usageError("nothing is asked for", "--ptm, --rti-web, --write-normals or --albedo");
+        throw usageError("nothing is asked for", "--page, --ptm, --rti-web, --write-normals or --albedo");
     }
     for (size_t i = 0; i < outputs.size(); ++i) {
         if (std::find(outputs.begin(), outputs.begin() + static_cast<std::ptrdiff_t>(i), outputs[i]) !=
@@ -242,11 +245,13 @@ void ExportArguments::addTo(CLI::App& command)
     command.add_option("--threads", threads, "Number of threads (default: all)");
     command.add_flag("--quiet", quiet, "No summary");
     command.add_flag("--force", force, "Replacement of existing outputs");
+    page.addTo(command);
 }
 
 void ExportArguments::check() const
 {
     requireChoices(*this);
+    page.check();
     requireOutputs(*this);
 }
 
@@ -424,12 +429,33 @@ void exportMaps(const ExportArguments& arguments, const Surface& surface)
     }
 }
 
+void exportPage(const ExportArguments& arguments, const Surface& surface)
+{
+    if (arguments.page.file.empty()) {
+        return;
+    }
+    PageArguments page = arguments.page;
+    page.shadows = arguments.shadows;
+    page.threads = arguments.threads;
+    const SurfacePage made = pageOfSurface(page, arguments.surface, surface);
+    for (const std::string& warning : made.warnings) {
+        fmt::print(stderr, "nacre: warning: {}\n", warning);
+    }
+    writeTextFile(page.file, made.text.html);
+    print(arguments,
+          fmt::format("{}: {:.2f} MB", page.file.string(), static_cast<double>(made.text.html.size()) / 1e6));
+    for (const std::string& line : made.lines) {
+        print(arguments, "  " + line);
+    }
+}
+
 void runExport(const ExportArguments& arguments)
 {
     arguments.check();
     const Surface surface = surfaceToExport(arguments);
     exportMaps(arguments, surface);
     exportRti(arguments, surface);
+    exportPage(arguments, surface);
 }
 
 } // namespace

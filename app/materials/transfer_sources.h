@@ -47,6 +47,10 @@ struct TransferSources {
     double materialSeconds = 0, targetSeconds = 0; // of reading
 };
 
+// The rows of --materials, and the targets of --onto. Throw Error.
+std::vector<TransferRow> loadTransferRows(const TransferArguments& arguments);
+std::vector<TransferTarget> loadTransferTargets(const TransferArguments& arguments, std::vector<std::string>& warnings);
+
 // Throws Error about whatever cannot be used, before anything is written.
 TransferSources loadTransferSources(const TransferArguments& arguments);
 

@@ -1,0 +1,350 @@
+#include "app/page/page_export.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <glm/trigonometric.hpp>
+
+#include "app/materials/transfer_sources.h"
+#include "app/page/page_photographs.h"
+#include "app/page/page_tables.h"
+#include "engine/files/error.h"
+#include "engine/files/measures.h"
+#include "engine/files/text_files.h"
+#include "engine/page/held_by_page.h"
+#include "engine/page/page_shape.h"
+#include "engine/scene/reference.h"
+
+namespace nacre {
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr int kMostSide = 2048; // pixels of a shape: 32-bit telephones hold the arrays of 4 megapixels
+constexpr const char* kOntoSize = "384x384";
+constexpr int kMostPagePhotographs = 24;
+constexpr int kJudgedSide = 192; // pixels of the pictures that tell what the page costs
+constexpr size_t kJudgedLights = 6;
+
+bool isTooLarge(const NormalMap& normals)
+{
+    return std::max(normals.width, normals.height) > kMostSide;
+}
+
+// Every so many pixels alone, where there are more than a page should have.
+Surface downscaled(Surface surface, const std::string& name, std::vector<std::string>& warnings)
+{
+    if (!isTooLarge(surface.normals)) {
+        return surface;
+    }
+    const double share = double{kMostSide} / std::max(surface.normals.width, surface.normals.height);
+    const auto side = [&](int pixels) { return std::max(1, static_cast<int>(std::lround(share * pixels))); };
+    const int width = side(surface.normals.width), height = side(surface.normals.height);
+    warnings.push_back(fmt::format("{} has {}x{} pixels: the page has every {:.2f}th, {}x{}", name,
+                                   surface.normals.width, surface.normals.height, 1 / share, width, height));
+    return fittedSurface(surface, width, height);
+}
+
+// ---- what is left out where bytes are few
+
+HorizonMap everySecondAzimuth(const HorizonMap& map)
+{
+    HorizonMap half(map.width, map.height, map.azimuths / 2);
+    for (int azimuth = 0; azimuth < half.azimuths; ++azimuth) {
+        std::copy_n(&map.codes[2 * azimuth * map.pixelCount()], map.pixelCount(),
+                    &half.codes[azimuth * map.pixelCount()]);
+    }
+    return half;
+}
+
+// The first components, which explain most.
+ResidualLayer firstComponents(const ResidualLayer& layer, int count)
+{
+    if (count == 0) {
+        return {};
+    }
+    ResidualLayer first = layer;
+    first.components = count;
+    first.low.resize(count);
+    first.high.resize(count);
+    first.weights.resize(count * layer.nodes.size());
+    first.codes.resize(first.layers() * layer.pixelCount() * kComponentsPerTexel);
+    return first;
+}
+
+// One step of what costs least for its bytes; false where nothing is left to leave out.
+bool makeSmaller(Surface& surface)
+{
+    constexpr int kFewComponents = 8, kFewAzimuths = 16;
+    const int components = surface.residual.components, azimuths = surface.horizon.azimuths;
+    if (azimuths > kFewAzimuths) {
+        surface.horizon = everySecondAzimuth(surface.horizon);
+    } else if (components > kFewComponents) {
+        surface.residual = firstComponents(surface.residual, components - (components + 7) / 8);
+    } else if (azimuths > kFewAzimuths / 2) {
+        surface.horizon = everySecondAzimuth(surface.horizon);
+    } else if (components > 0) {
+        surface.residual = firstComponents(surface.residual, components - 1);
+    } else if (azimuths > 0) {
+        surface.horizon = {};
+    } else {
+        return false;
+    }
+    return true;
+}
+
+std::vector<Light> judgedLights(const Surface& surface)
+{
+    std::vector<Light> lights;
+    const size_t count = std::min(kJudgedLights, surface.lights.size());
+    for (size_t i = 0; i < count; ++i) {
+        lights.push_back(surface.lights[i * surface.lights.size() / count].light);
+    }
+    return lights.empty() ? std::vector<Light>{{glm::normalize(glm::vec3(-0.4f, 0.5f, 0.8f))}} : lights;
+}
+
+// dB of the page's pictures against the surface's own, both from the front under captured lights.
+double decibelsOf(const Surface& page, const Surface& own)
+{
+    Scene shown{fittedSurface(page, kJudgedSide, kJudgedSide), {}},
+        truth{fittedSurface(own, kJudgedSide, kJudgedSide), {}};
+    std::vector<uint8_t> mask;
+    for (size_t i = 0; i < truth.surface.labels.size(); ++i) {
+        mask.push_back(isShaded(truth.surface, i) ? 1 : 0);
+    }
+    double squares = 0;
+    const std::vector<Light> lights = judgedLights(own);
+    for (const Light& light : lights) {
+        shown.lights = truth.lights = {light};
+        const Frame frame = renderReference(truth);
+        squares += std::pow(10, -0.1 * radiancePsnr(renderReference(shown), frame, mask, peakOf(frame, mask)));
+    }
+    return -10 * std::log10(std::max(squares / static_cast<double>(lights.size()), 1e-12));
+}
+
+std::string textOf(double decibels)
+{
+    return decibels >= 99 ? "exactly" : fmt::format("to {:.1f} dB", decibels);
+}
+
+// What fits into the budget (0: all), its object made smaller until it does.
+PageText textWithin(PageContent& content, size_t budget)
+{
+    PageText text = makePage(content);
+    while (budget > 0 && text.html.size() > budget) {
+        if (!makeSmaller(content.object)) {
+            throw Error(
+                "", fmt::format("--budget-bytes {} is too little", budget),
+                fmt::format("{} or more; --size, fewer shapes or photographs make a page smaller", text.html.size()),
+                Error::kUsage);
+        }
+        text = makePage(content);
+    }
+    return text;
+}
+
+std::string describeLeftOut(const Surface& page, const Surface& own)
+{
+    std::vector<std::string> left;
+    const auto add = [&](int kept, int all, const char* what) {
+        if (kept < all) {
+            left.push_back(fmt::format("{} of {} {}", all - kept, all, what));
+        }
+    };
+    add(page.residual.components, own.residual.components, "components of the residual layer");
+    add(page.horizon.azimuths, own.horizon.azimuths, "directions of cast shadows");
+    return fmt::format("{}", fmt::join(left, " and "));
+}
+
+// ---- what the page says of itself
+
+std::string describeLights(const Surface& surface)
+{
+    float least = 90, most = 0;
+    bool areNear = false;
+    for (const CapturedLight& captured : surface.lights) {
+        const float polar = glm::degrees(std::acos(std::clamp(captured.light.direction.z, -1.0f, 1.0f)));
+        least = std::min(least, polar), most = std::max(most, polar);
+        areNear = areNear || isNear(captured.light);
+    }
+    return fmt::format(
+        "{} photographs from one place, each under one light, {:.0f} to {:.0f} degrees from the camera{}",
+        surface.lights.size(), least, most, areNear ? "; the lights stood near the object" : "");
+}
+
+std::string describeLeftOutError(const Surface& surface)
+{
+    return surface.leftOutDecibels
+               ? fmt::format("{:.1f} dB PSNR of photographs that the measurement did not see, mean over them",
+                             *surface.leftOutDecibels)
+               : "not known for this surface";
+}
+
+std::vector<PageNote> notesOf(const Surface& own, const Surface& page, const std::string& left, double decibels)
+{
+    std::vector<PageNote> notes;
+    if (!own.lights.empty()) {
+        notes.push_back({"Photographs", describeLights(own)});
+    }
+    notes.push_back({"Held-out error", describeLeftOutError(own)});
+    notes.push_back({"Scale", own.scale == RadianceScale::absolute
+                                  ? "absolute: reflectance in 1/sr"
+                                  : "relative: reflectance up to one factor for the whole object"});
+    notes.push_back({"Pixels", fmt::format("{} x {}", own.normals.width, own.normals.height)});
+    if (!page.residual.empty()) {
+        notes.push_back(
+            {"Residual layer", fmt::format("{} pictures that are added for what the material does not explain "
+                                           "(light from the object to itself, faults of normals), near "
+                                           "the lights of the photographs (dots on the ball)",
+                                           page.residual.components)});
+    }
+    if (!page.horizon.empty()) {
+        notes.push_back(
+            {"Cast shadows", fmt::format("by the object's height, from {} directions", page.horizon.azimuths)});
+    }
+    if (!left.empty()) {
+        notes.push_back({"Left out for size", left});
+    }
+    notes.push_back({"This page", fmt::format("agrees with the full measurement {}", textOf(decibels))});
+    notes.push_back({"Made by", "Nacre, image-based measurement of reflectance"});
+    return notes;
+}
+
+std::string nameOf(const fs::path& folder)
+{
+    const fs::path path = folder.has_filename() ? folder : folder.parent_path();
+    return path.stem().string();
+}
+
+TransferArguments transferArgumentsOf(const PageArguments& arguments)
+{
+    TransferArguments transfer;
+    transfer.materials = arguments.materials;
+    transfer.targets = arguments.onto;
+    transfer.fits = arguments.fits;
+    transfer.size = kOntoSize;
+    transfer.device = arguments.device;
+    transfer.threads = arguments.threads;
+    transfer.shadows = arguments.shadows;
+    return transfer;
+}
+
+void addShapes(const PageArguments& arguments, SurfacePage& page, PageContent& content)
+{
+    for (TransferTarget& target : loadTransferTargets(transferArgumentsOf(arguments), page.warnings)) {
+        const auto& confidence = target.surface.normals.confidence;
+        if (std::none_of(confidence.begin(), confidence.end(), [](float c) { return c > 0; })) {
+            throw Error(target.name, "has no normals", "a shape that is seen");
+        }
+        content.shapes.push_back({target.name, heldByPage(std::move(target.surface))});
+    }
+}
+
+void addMaterials(const PageArguments& arguments, double tolerance, SurfacePage& page, PageContent& content)
+{
+    const auto held = [&](Material material) {
+        PageTable table = tableForPage(std::move(material), tolerance, arguments.threads);
+        page.lines.push_back(fmt::format("material     {}: {}", table.material.name, table.description));
+        return std::move(table.material);
+    };
+    for (Material& material : content.object.materials) {
+        material = held(std::move(material));
+    }
+    for (TransferRow& row : loadTransferRows(transferArgumentsOf(arguments))) {
+        content.materials.push_back(held(std::move(row.materials.front())));
+    }
+}
+
+void describeBytes(const PageText& text, std::vector<std::string>& lines)
+{
+    for (const PageParts::Share& share : text.shares) {
+        lines.push_back(fmt::format("{:>9.1f} KiB {}", static_cast<double>(share.bytes) / 1024, share.kind));
+    }
+}
+
+} // namespace
+
+void PageArguments::addTo(CLI::App& command)
+{
+    const char* group = "A page for a browser";
+    command.add_option("--page", file, "One page for a browser to write, FILE.html")->option_text("FILE")->group(group);
+    command
+        .add_option("--onto", onto,
+                    "More shapes of the page, as nacre transfer takes them: make:NAME, mesh, NAME.nacre, ...")
+        ->allow_extra_args(false)
+        ->group(group);
+    command.add_option("--materials", materials, "More materials of the page, as nacre transfer takes them")
+        ->allow_extra_args(false)
+        ->group(group);
+    command.add_option("--photographs", photographs, "Number of photographs to compare with, of --capture")
+        ->group(group);
+    command.add_option("--capture", capture, "Capture that the surface was measured from")->group(group);
+    command
+        .add_option("--tolerance", size.tolerance,
+                    "Least PSNR of each material's table against its own: the smallest that has it is taken")
+        ->capture_default_str()
+        ->group(group);
+    command
+        .add_option(
+            "--budget-bytes", size.budget,
+            "Most bytes of the page, e.g. 1MiB: less of the residual layer and of cast shadows where it is over")
+        ->group(group);
+    command
+        .add_option("--fits", fits, "Folder of merl_abc_params.csv and merl_sgd_params.csv (default: $NACRE_FITS_DIR)")
+        ->group(group);
+}
+
+void PageArguments::check() const
+{
+    const auto require = [](bool isFine, const std::string& wrong, const char* expected) {
+        if (!isFine) {
+            throw Error("", wrong, expected, Error::kUsage);
+        }
+    };
+    const bool hasMore =
+        !onto.empty() || !materials.empty() || photographs != 0 || !capture.empty() || !size.budget.empty();
+    require(!file.empty() || !hasMore, "there is no page that these options could belong to",
+            "--page FILE.html with them");
+    require(file.empty() || lowerExtension(file) == ".html" || lowerExtension(file) == ".htm",
+            fmt::format("--page {} is no such file", file.string()), "NAME.html");
+    require(photographs >= 0 && photographs <= kMostPagePhotographs,
+            fmt::format("--photographs {} is out of range", photographs), "0 to 24");
+    require((photographs > 0) == !capture.empty(), "photographs and their capture go together",
+            "--photographs 6 --capture FOLDER, or neither");
+    size.options(threads);
+}
+
+SurfacePage pageOfSurface(const PageArguments& arguments, const fs::path& folder, Surface surface)
+{
+    if (surface.materials.empty()) {
+        throw Error(folder, "is a target without a material", "a surface of nacre acquire to make a page of");
+    }
+    const LadderOptions size = arguments.size.options(arguments.threads);
+    SurfacePage page;
+    PageContent content;
+    content.title = nameOf(folder);
+    if (arguments.photographs > 0) {
+        if (isTooLarge(surface.normals)) {
+            throw Error(folder, "is too large to stand beside its photographs", "--size, or no --photographs");
+        }
+        content.photographs = photographsForPage(arguments.capture, folder, surface, arguments.photographs);
+    }
+    const Surface own = downscaled(std::move(surface), content.title, page.warnings);
+    content.object = own;
+    addMaterials(arguments, size.toleranceDecibels, page, content);
+    content.object = heldByPage(std::move(content.object));
+    addShapes(arguments, page, content);
+    page.text = textWithin(content, size.budgetBytes);
+    const std::string left = describeLeftOut(content.object, own);
+    const double decibels = decibelsOf(content.object, own);
+    content.notes = notesOf(own, content.object, left, decibels);
+    page.text = makePage(content);
+    describeBytes(page.text, page.lines);
+    page.lines.push_back(fmt::format("agrees with the full measurement {}{}{}", textOf(decibels),
+                                     left.empty() ? "" : "; left out for size: ", left));
+    return page;
+}
+
+} // namespace nacre
