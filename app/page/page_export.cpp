@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <limits>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -23,7 +25,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr int kMostSide = 2048; // pixels of a shape: 32-bit telephones hold the arrays of 4 megapixels
-constexpr const char* kOntoSize = "384x384";
+constexpr const char* kOntoSize = "320x320";
 constexpr int kMostPagePhotographs = 24;
 constexpr int kJudgedSide = 192; // pixels of the pictures that tell what the page costs
 constexpr size_t kJudgedLights = 6;
@@ -59,40 +61,78 @@ HorizonMap everySecondAzimuth(const HorizonMap& map)
     return half;
 }
 
-// The first components, which explain most.
-ResidualLayer firstComponents(const ResidualLayer& layer, int count)
+// How much of radiance over irradiance one code of each component is, under the captured light that it matters most
+// for.
+std::vector<float> codeStrengths(const ResidualLayer& layer)
 {
-    if (count == 0) {
-        return {};
+    std::vector<float> strengths(layer.components, 0.0f);
+    const ResidualLights captured(layer);
+    for (const glm::vec3& node : layer.nodes) {
+        const ResidualLight light = captured.at(node);
+        for (int k = 0; k < layer.components; ++k) {
+            const glm::vec3 weight = glm::abs(light.weights[k]);
+            const float strength = std::max({weight.x, weight.y, weight.z}) * (layer.high[k] - layer.low[k]) / 255;
+            strengths[k] = std::max(strengths[k], strength);
+        }
     }
-    ResidualLayer first = layer;
-    first.components = count;
-    first.low.resize(count);
-    first.high.resize(count);
-    first.weights.resize(count * layer.nodes.size());
-    first.codes.resize(first.layers() * layer.pixelCount() * kComponentsPerTexel);
-    return first;
+    return strengths;
 }
 
-// One step of what costs least for its bytes; false where nothing is left to leave out.
-bool makeSmaller(Surface& surface)
+// The layer rounded to steps of so much radiance over irradiance, the same for all components: what is weaker goes,
+// what is stronger stays (reverse water-filling: Cover, Thomas, Elements of Information Theory, 2006, 10.3.3).
+ResidualLayer roundedLayer(const ResidualLayer& layer, float step)
 {
-    constexpr int kFewComponents = 8, kFewAzimuths = 16;
-    const int components = surface.residual.components, azimuths = surface.horizon.azimuths;
-    if (azimuths > kFewAzimuths) {
-        surface.horizon = everySecondAzimuth(surface.horizon);
-    } else if (components > kFewComponents) {
-        surface.residual = firstComponents(surface.residual, components - (components + 7) / 8);
-    } else if (azimuths > kFewAzimuths / 2) {
-        surface.horizon = everySecondAzimuth(surface.horizon);
-    } else if (components > 0) {
-        surface.residual = firstComponents(surface.residual, components - 1);
-    } else if (azimuths > 0) {
-        surface.horizon = {};
-    } else {
-        return false;
+    ResidualLayer rounded = layer;
+    const std::vector<float> strengths = codeStrengths(layer);
+    for (int k = 0; k < layer.components; ++k) {
+        const float codes = std::max(1.0f, std::floor(step / std::max(strengths[k], 1e-12f)));
+        const float zero = -255 * layer.low[k] / std::max(layer.high[k] - layer.low[k], 1e-12f);
+        const size_t first = k / kComponentsPerTexel * layer.pixelCount();
+        for (size_t pixel = 0; pixel < layer.pixelCount(); ++pixel) {
+            uint8_t& code = rounded.codes[(first + pixel) * kComponentsPerTexel + k % kComponentsPerTexel];
+            const float value = zero + codes * std::round((static_cast<float>(code) - zero) / codes);
+            code = static_cast<uint8_t>(std::lround(std::clamp(value, 0.0f, 255.0f)));
+        }
     }
-    return true;
+    return rounded;
+}
+
+// What of an object a page leaves out where its bytes are few.
+struct Savings {
+    int azimuths = 0; // of the horizons, that are kept
+    float step = 0;   // of the residual layer (roundedLayer); 0: as stored, infinite: no layer
+
+    Surface of(const Surface& own) const
+    {
+        Surface object = own;
+        while (object.horizon.azimuths > azimuths) {
+            object.horizon = azimuths == 0 ? HorizonMap() : everySecondAzimuth(object.horizon);
+        }
+        if (step > 0 && !own.residual.empty()) {
+            object.residual = std::isinf(step) ? ResidualLayer() : roundedLayer(own.residual, step);
+        }
+        return object;
+    }
+};
+
+// From what costs least for its bytes on. `peak`: radiance over irradiance that shows as white.
+std::vector<Savings> savingsOf(const Surface& own, float peak)
+{
+    constexpr int kFewAzimuths = 16;
+    constexpr float kFirstStep = 1.0f / 1024, kShownStep = 1.0f / 200, kLastStep = 0.1f; // of the peak
+    const int all = own.horizon.azimuths, few = std::min(all, kFewAzimuths);
+    std::vector<Savings> savings;
+    const auto addSteps = [&](int azimuths, float from, float to) {
+        for (float share = from; share < to && !own.residual.empty(); share *= 1.41421356f) {
+            savings.push_back({azimuths, share * peak});
+        }
+    };
+    addSteps(all, kFirstStep, kShownStep);
+    savings.push_back({few, kShownStep * peak});
+    addSteps(few, kShownStep, kLastStep);
+    savings.push_back({few, std::numeric_limits<float>::infinity()});
+    savings.push_back({0, std::numeric_limits<float>::infinity()});
+    return savings;
 }
 
 std::vector<Light> judgedLights(const Surface& surface)
@@ -103,6 +143,20 @@ std::vector<Light> judgedLights(const Surface& surface)
         lights.push_back(surface.lights[i * surface.lights.size() / count].light);
     }
     return lights.empty() ? std::vector<Light>{{glm::normalize(glm::vec3(-0.4f, 0.5f, 0.8f))}} : lights;
+}
+
+// Of the surface under its captured lights.
+float peakOverIrradiance(const Surface& surface)
+{
+    Scene scene{fittedSurface(surface, kJudgedSide, kJudgedSide), {}};
+    float largest = 0;
+    for (const Light& light : judgedLights(surface)) {
+        scene.lights = {light};
+        const Frame frame = renderReference(scene);
+        const glm::vec3& e = light.irradiance;
+        largest = std::max(largest, std::exp2(-automaticExposure(frame)) / std::max({e.x, e.y, e.z, 1e-12f}));
+    }
+    return largest;
 }
 
 // dB of the page's pictures against the surface's own, both from the front under captured lights.
@@ -129,32 +183,46 @@ std::string textOf(double decibels)
     return decibels >= 99 ? "exactly" : fmt::format("to {:.1f} dB", decibels);
 }
 
-// What fits into the budget (0: all), its object made smaller until it does.
+// What fits into the budget (0: all): with the first savings that are enough, whose bytes fall from one to the next.
 PageText textWithin(PageContent& content, size_t budget)
 {
     PageText text = makePage(content);
-    while (budget > 0 && text.html.size() > budget) {
-        if (!makeSmaller(content.object)) {
-            throw Error(
-                "", fmt::format("--budget-bytes {} is too little", budget),
-                fmt::format("{} or more; --size, fewer shapes or photographs make a page smaller", text.html.size()),
-                Error::kUsage);
-        }
-        text = makePage(content);
+    if (budget == 0 || text.html.size() <= budget) {
+        return text;
     }
+    const Surface own = content.object;
+    const std::vector<Savings> savings = savingsOf(own, peakOverIrradiance(own));
+    const auto isEnough = [&](const Savings& saving) {
+        content.object = saving.of(own);
+        text = makePage(content);
+        return text.html.size() <= budget;
+    };
+    const auto first = std::partition_point(savings.begin(), savings.end(), std::not_fn(isEnough));
+    if (first == savings.end()) {
+        isEnough(savings.back());
+        throw Error(
+            "", fmt::format("--budget-bytes {} is too little", budget),
+            fmt::format("{} or more; --size, fewer shapes or photographs make a page smaller", text.html.size()),
+            Error::kUsage);
+    }
+    isEnough(*first);
     return text;
 }
 
 std::string describeLeftOut(const Surface& page, const Surface& own)
 {
     std::vector<std::string> left;
-    const auto add = [&](int kept, int all, const char* what) {
-        if (kept < all) {
-            left.push_back(fmt::format("{} of {} {}", all - kept, all, what));
-        }
-    };
-    add(page.residual.components, own.residual.components, "components of the residual layer");
-    add(page.horizon.azimuths, own.horizon.azimuths, "directions of cast shadows");
+    if (page.residual.empty() && !own.residual.empty()) {
+        left.push_back("the residual layer");
+    } else if (page.residual.codes != own.residual.codes) {
+        left.push_back("what is weak in the residual layer");
+    }
+    if (page.horizon.azimuths < own.horizon.azimuths) {
+        left.push_back(page.horizon.empty()
+                           ? "cast shadows"
+                           : fmt::format("{} of {} directions of cast shadows",
+                                         own.horizon.azimuths - page.horizon.azimuths, own.horizon.azimuths));
+    }
     return fmt::format("{}", fmt::join(left, " and "));
 }
 
@@ -231,14 +299,17 @@ TransferArguments transferArgumentsOf(const PageArguments& arguments)
     return transfer;
 }
 
-void addShapes(const PageArguments& arguments, SurfacePage& page, PageContent& content)
+void addShapes(const PageArguments& arguments, std::vector<PageShape> shapes, SurfacePage& page, PageContent& content)
 {
     for (TransferTarget& target : loadTransferTargets(transferArgumentsOf(arguments), page.warnings)) {
-        const auto& confidence = target.surface.normals.confidence;
+        shapes.push_back({target.name, std::move(target.surface)});
+    }
+    for (PageShape& shape : shapes) {
+        const auto& confidence = shape.surface.normals.confidence;
         if (std::none_of(confidence.begin(), confidence.end(), [](float c) { return c > 0; })) {
-            throw Error(target.name, "has no normals", "a shape that is seen");
+            throw Error(shape.name, "has no normals", "a shape that is seen");
         }
-        content.shapes.push_back({target.name, heldByPage(std::move(target.surface))});
+        content.shapes.push_back({shape.name, heldByPage(std::move(shape.surface))});
     }
 }
 
@@ -316,7 +387,8 @@ void PageArguments::check() const
     size.options(threads);
 }
 
-SurfacePage pageOfSurface(const PageArguments& arguments, const fs::path& folder, Surface surface)
+SurfacePage pageOfSurface(const PageArguments& arguments, const fs::path& folder, Surface surface,
+                          std::vector<PageShape> shapes)
 {
     if (surface.materials.empty()) {
         throw Error(folder, "is a target without a material", "a surface of nacre acquire to make a page of");
@@ -335,7 +407,7 @@ SurfacePage pageOfSurface(const PageArguments& arguments, const fs::path& folder
     content.object = own;
     addMaterials(arguments, size.toleranceDecibels, page, content);
     content.object = heldByPage(std::move(content.object));
-    addShapes(arguments, page, content);
+    addShapes(arguments, std::move(shapes), page, content);
     page.text = textWithin(content, size.budgetBytes);
     const std::string left = describeLeftOut(content.object, own);
     const double decibels = decibelsOf(content.object, own);

@@ -33,7 +33,9 @@ struct SurfacePage {
     std::vector<std::string> warnings; // for stderr
 };
 
-// The page of a surface that was read from `folder`, its horizon baked where it is to cast shadows. Throws Error.
-SurfacePage pageOfSurface(const PageArguments& arguments, const std::filesystem::path& folder, Surface surface);
+// The page of a surface that was read from `folder`, its horizon baked where it is to cast shadows. `shapes`: before
+// those of --onto, without materials. Throws Error.
+SurfacePage pageOfSurface(const PageArguments& arguments, const std::filesystem::path& folder, Surface surface,
+                          std::vector<PageShape> shapes = {});
 
 } // namespace nacre

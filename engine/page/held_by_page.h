@@ -9,8 +9,8 @@ namespace nacre {
 
 // What a page stores of a surface, as whole numbers: the surface that its reader sees.
 
-// A normal by ball.h's two numbers, 16 bits each.
-inline constexpr float kNormalSteps = 32767; // of the code, from 0 to 1
+// A normal by ball.h's two numbers, 14 bits each: steps of 0.01 degrees. In 16, what a page has most of would be noise.
+inline constexpr float kNormalSteps = 8191; // of the code, from 0 to 1
 glm::u16vec2 normalCode(const glm::vec3& normal);
 glm::vec3 normalFromCode(const glm::u16vec2& code);
 

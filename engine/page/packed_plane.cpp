@@ -58,12 +58,21 @@ std::vector<unsigned char> filteredPlane(std::span<const uint16_t> values, int w
 
 std::string deflatedText(std::span<const unsigned char> bytes)
 {
-    uLongf length = compressBound(bytes.size());
-    std::vector<unsigned char> deflated(length);
-    if (compress2(deflated.data(), &length, bytes.data(), bytes.size(), Z_BEST_COMPRESSION) != Z_OK) {
-        throw std::bad_alloc(); // the only thing that can go wrong with a buffer of this length
+    constexpr int kLargestWindow = 15, kMostMemory = 9;
+    z_stream stream{};
+    // Differences are noise of few values and runs of zeros: no repetitions are looked for.
+    if (deflateInit2(&stream, Z_BEST_COMPRESSION, Z_DEFLATED, kLargestWindow, kMostMemory, Z_RLE) != Z_OK) {
+        throw std::bad_alloc(); // nothing else can be wrong with these
     }
-    return base64(std::string_view(reinterpret_cast<const char*>(deflated.data()), length));
+    std::string text(deflateBound(&stream, bytes.size()), '\0');
+    stream.next_in = const_cast<unsigned char*>(bytes.data()); // zlib's own declaration; it does not write there
+    stream.avail_in = static_cast<uInt>(bytes.size());
+    stream.next_out = reinterpret_cast<unsigned char*>(text.data());
+    stream.avail_out = static_cast<uInt>(text.size());
+    deflate(&stream, Z_FINISH);
+    text.resize(stream.total_out);
+    deflateEnd(&stream);
+    return base64(text);
 }
 
 } // namespace nacre

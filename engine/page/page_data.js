@@ -53,7 +53,7 @@ function interleaved(planes, channels, Numbers) {
 }
 
 const kNoNormal = 65535;
-const kNormalSteps = 32767;
+const kNormalSteps = 8191; // of held_by_page.h
 
 async function decodedNormals(shape) {
     const [mask, x, y] = await Promise.all([
@@ -108,12 +108,21 @@ async function decodedHeights(shape) {
     return Float32Array.from(await wordPlane(plane, shape.width), code => low + step * code);
 }
 
+// Of each component, one a node: [component * nodes + node][channel].
+async function decodedWeights({ weights }) {
+    const values = new Float32Array((await inflated(bytesOfPart(weights))).buffer);
+    return Array.from({ length: values.length / 3 }, (_, i) => values.subarray(3 * i, 3 * i + 3));
+}
+
 async function decodedShape(shape) {
     const nothing = Promise.resolve(null);
     const [normals, factors, residual, horizons, heights] = await Promise.all([
         decodedNormals(shape), shape.labels === undefined ? nothing : decodedFactors(shape),
         shape.residual ? decodedResidual(shape) : nothing, shape.horizon ? decodedHorizons(shape) : nothing,
         shape.places ? decodedHeights(shape) : nothing]);
+    if (residual) {
+        shape.residual.weights = await decodedWeights(shape.residual);
+    }
     return { ...shape, arrays: { normals, factors, residual, horizons, heights } };
 }
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <span>
 
 #include <glm/gtc/packing.hpp>
 #include <nlohmann/json.hpp>
@@ -40,6 +42,11 @@ public:
     {
         const std::vector<uint8_t> all(mask_.size(), 1);
         return parts_.add(kind, deflatedText(filteredPlane(std::span<const uint8_t>(mask_), crop_.width, all)));
+    }
+
+    size_t addBytes(const std::string& kind, std::span<const std::byte> bytes) const
+    {
+        return parts_.add(kind, deflatedText({reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size()}));
     }
 
     // `at` answers a pixel's number, uint8_t or uint16_t.
@@ -85,7 +92,7 @@ nlohmann::json describeResidual(const ResidualLayer& layer, const Planes& planes
                            {"spacing", meanSpacing(points)},
                            {"hull", nlohmann::json::array()},
                            {"nodes", nlohmann::json::array()},
-                           {"weights", nlohmann::json::array()},
+                           {"weights", planes.addBytes(kResidual, std::as_bytes(std::span(layer.weights)))},
                            {"planes", nlohmann::json::array()}};
     const LightHull hull(points);
     for (const glm::vec2& corner : hull.corners()) {
@@ -93,9 +100,6 @@ nlohmann::json describeResidual(const ResidualLayer& layer, const Planes& planes
     }
     for (const glm::vec3& node : layer.nodes) {
         json["nodes"].push_back(arrayOf(node));
-    }
-    for (const glm::vec3& weight : layer.weights) {
-        json["weights"].push_back(arrayOf(weight));
     }
     for (int k = 0; k < layer.components; ++k) {
         const size_t first = k / kComponentsPerTexel * layer.pixelCount();

@@ -19,6 +19,7 @@ precision highp usampler2D;
 #include "shared/tone.h"
 
 const int kMostPageLights = 8;
+const float kNormalSteps = 8191.0; // of held_by_page.h
 const vec3 kView = vec3(0.0, 0.0, 1.0);
 
 uniform usampler2D normals;      // codes of packed normals; 65535: none
@@ -106,7 +107,7 @@ vec3 residualOf(ivec2 pixel)
 void main()
 {
     ivec2 pixel = ivec2(gl_FragCoord.xy);
-    vec2 disc = vec2(texelFetch(normals, pixel, 0).xy) / 32767.0 - 1.0;
+    vec2 disc = vec2(texelFetch(normals, pixel, 0).xy) / kNormalSteps - 1.0;
     vec4 albedo = material < 0 ? vec4(1.0, 1.0, 1.0, 0.0) : texelFetch(albedos, pixel, 0);
     int label = int(albedo.a + 0.5);
     vec3 n = normalFromDisc(kPackedReach * disc);
