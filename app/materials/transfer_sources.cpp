@@ -19,6 +19,7 @@
 #include "engine/lights/light_rigs.h"
 #include "engine/loading/scene_loading.h"
 #include "engine/materials/material_specification.h"
+#include "engine/target/mesh_file.h"
 
 namespace nacre {
 
@@ -223,11 +224,12 @@ std::vector<TransferTarget> loadTransferTargets(const TransferArguments& argumen
     const std::vector<std::string> names = shortNames(sources);
     std::vector<TransferTarget> targets;
     for (size_t i = 0; i < sources.size(); ++i) {
+        const bool isDrawn = sources[i].starts_with("make:") || isMeshFile(sources[i]);
         TargetReport report = targetFromSource({.source = sources[i],
                                                 .output = {},
                                                 .from = {},
                                                 .up = {},
-                                                .size = arguments.size,
+                                                .size = isDrawn || arguments.enlarges ? arguments.size : "",
                                                 .normalMap = {},
                                                 .normalY = {},
                                                 .heightScale = {},

@@ -17,6 +17,7 @@ struct TransferArguments {
     std::filesystem::path fits;
     std::filesystem::path output;
     std::string size = "512x512";
+    bool enlarges = true; // pictures and surfaces to that size too, beside what is drawn or made
     std::string motion;
     std::string device;
     int frames = 1;

@@ -25,23 +25,18 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr int kMostSide = 2048; // pixels of a shape: 32-bit telephones hold the arrays of 4 megapixels
-constexpr const char* kOntoSize = "320x320";
+constexpr int kOntoSide = 384; // pixels of the other shapes
 constexpr int kMostPagePhotographs = 24;
 constexpr int kJudgedSide = 192; // pixels of the pictures that tell what the page costs
 constexpr size_t kJudgedLights = 6;
 
-bool isTooLarge(const NormalMap& normals)
-{
-    return std::max(normals.width, normals.height) > kMostSide;
-}
-
 // Every so many pixels alone, where there are more than a page should have.
-Surface downscaled(Surface surface, const std::string& name, std::vector<std::string>& warnings)
+Surface downscaled(Surface surface, const std::string& name, int mostSide, std::vector<std::string>& warnings)
 {
-    if (!isTooLarge(surface.normals)) {
+    if (std::max(surface.normals.width, surface.normals.height) <= mostSide) {
         return surface;
     }
-    const double share = double{kMostSide} / std::max(surface.normals.width, surface.normals.height);
+    const double share = double(mostSide) / std::max(surface.normals.width, surface.normals.height);
     const auto side = [&](int pixels) { return std::max(1, static_cast<int>(std::lround(share * pixels))); };
     const int width = side(surface.normals.width), height = side(surface.normals.height);
     warnings.push_back(fmt::format("{} has {}x{} pixels: the page has every {:.2f}th, {}x{}", name,
@@ -292,7 +287,8 @@ TransferArguments transferArgumentsOf(const PageArguments& arguments)
     transfer.materials = arguments.materials;
     transfer.targets = arguments.onto;
     transfer.fits = arguments.fits;
-    transfer.size = kOntoSize;
+    transfer.size = fmt::format("{0}x{0}", kOntoSide);
+    transfer.enlarges = false;
     transfer.device = arguments.device;
     transfer.threads = arguments.threads;
     transfer.shadows = arguments.shadows;
@@ -309,7 +305,8 @@ void addShapes(const PageArguments& arguments, std::vector<PageShape> shapes, Su
         if (std::none_of(confidence.begin(), confidence.end(), [](float c) { return c > 0; })) {
             throw Error(shape.name, "has no normals", "a shape that is seen");
         }
-        content.shapes.push_back({shape.name, heldByPage(std::move(shape.surface))});
+        content.shapes.push_back(
+            {shape.name, heldByPage(downscaled(std::move(shape.surface), shape.name, kOntoSide, page.warnings))});
     }
 }
 
@@ -398,12 +395,12 @@ SurfacePage pageOfSurface(const PageArguments& arguments, const fs::path& folder
     PageContent content;
     content.title = nameOf(folder);
     if (arguments.photographs > 0) {
-        if (isTooLarge(surface.normals)) {
+        if (std::max(surface.normals.width, surface.normals.height) > kMostSide) {
             throw Error(folder, "is too large to stand beside its photographs", "--size, or no --photographs");
         }
         content.photographs = photographsForPage(arguments.capture, folder, surface, arguments.photographs);
     }
-    const Surface own = downscaled(std::move(surface), content.title, page.warnings);
+    const Surface own = downscaled(std::move(surface), content.title, kMostSide, page.warnings);
     content.object = own;
     addMaterials(arguments, size.toleranceDecibels, page, content);
     content.object = heldByPage(std::move(content.object));

@@ -261,6 +261,13 @@ class Page {
         return this.scene.lights[this.scene.photographs[this.state.photograph].light].photograph;
     }
 
+    // To a state as an address has it; what is on the canvas shows it at once.
+    go(hash) {
+        this.state = stateOf(hash, this.scene);
+        this.draw();
+        this.showState();
+    }
+
     // ---- lights
 
     // Of an irradiance over the white one's, its largest channel: strength; what remains: the colour.
@@ -341,7 +348,7 @@ class Page {
     // ---- input
 
     watch() {
-        const { state } = this, on = (id, kind, act) => element(id).addEventListener(kind, act);
+        const on = (id, kind, act) => element(id).addEventListener(kind, act);
         on("shape", "change", event => this.choose({ shape: Number(event.target.value), zoom: 0,
             material: event.target.value === "0" && this.scene.ownMaterials > 0 ? null : this.state.material ?? 0 }));
         on("material", "change", event =>
@@ -362,10 +369,7 @@ class Page {
         this.watchPointers();
         document.addEventListener("keydown", event => this.key(event));
         new ResizeObserver(() => this.changed()).observe(this.canvas);
-        addEventListener("hashchange", () => {
-            this.state = stateOf(location.hash, this.scene);
-            this.changed();
-        });
+        addEventListener("hashchange", () => this.go(location.hash));
         this.canvas.addEventListener("webglcontextlost", event => event.preventDefault());
         this.canvas.addEventListener("webglcontextrestored", () => {
             this.painter.restore();

@@ -18,6 +18,11 @@ std::string_view embedded(const std::string& name)
     return found->second;
 }
 
+std::string pathOf(const std::string& name)
+{
+    return (name.starts_with("shared/") ? "shaders/" : "engine/page/") + name;
+}
+
 void appendShader(const std::string& name, std::set<std::string>& taken, std::string& text)
 {
     if (!taken.insert(name).second) {
@@ -31,7 +36,7 @@ void appendShader(const std::string& name, std::set<std::string>& taken, std::st
             continue;
         }
         const std::string included = line.substr(quote + 1, line.rfind('"') - quote - 1);
-        appendShader((included.starts_with("shared/") ? "shaders/" : "shaders/shared/") + included, taken, text);
+        appendShader(pathOf(included.starts_with("shared/") ? included : "shared/" + included), taken, text);
     }
 }
 
@@ -46,8 +51,7 @@ std::string pieceOf(const std::string& name, const PagePieces& pieces)
     if (name == "parts") {
         return pieces.parts;
     }
-    return name.ends_with(".frag") || name.ends_with(".vert") ? pageShader(name)
-                                                              : std::string(embedded("engine/page/" + name));
+    return name.ends_with(".frag") || name.ends_with(".vert") ? pageShader(name) : std::string(embedded(pathOf(name)));
 }
 
 } // namespace
@@ -56,7 +60,7 @@ std::string pageShader(const std::string& name)
 {
     std::string text;
     std::set<std::string> taken;
-    appendShader("engine/page/" + name, taken, text);
+    appendShader(pathOf(name), taken, text);
     return text;
 }
 
