@@ -27,6 +27,7 @@ std::string sizeText(const BrdfTable& table)
 
 PageTable tableForPage(Material material, double toleranceDecibels, int threads)
 {
+    requireHeld(material); // smaller tables would hide it
     const BrdfTable full = std::move(material.table);
     const BrdfInterpolant own = [&](const glm::vec3& unit) {
         return InterpolatedValue{.value = sampleTable(full, unit).value};

@@ -51,6 +51,17 @@ float albedoFromCode(uint16_t code, float largest)
     return largest * root * root;
 }
 
+void requireHeld(const Material& material)
+{
+    for (const glm::vec3& f : material.table.values) {
+        if (!isHeld(f)) {
+            throw Error("",
+                        fmt::format("material {} has values that are not finite or above {}", material.name, kMostHeld),
+                        "reflectance that half floats, which a page has, can hold");
+        }
+    }
+}
+
 Material heldByPage(Material material)
 {
     BrdfTable& table = material.table;
@@ -60,14 +71,10 @@ Material heldByPage(Material material)
             fmt::format("material {} has a table of {}x{}x{}", material.name, table.size.x, table.size.y, table.size.z),
             fmt::format("at most {} texels a side, as a page can hold them", kMostTexelsAlong));
     }
+    requireHeld(material);
     const bool isTold = knowsCoverage(table);
     std::vector<float> error;
     for (size_t i = 0; i < table.values.size(); ++i) {
-        if (!isHeld(table.values[i])) {
-            throw Error("",
-                        fmt::format("material {} has values that are not finite or above {}", material.name, kMostHeld),
-                        "reflectance that half floats, which a page has, can hold");
-        }
         if (isTold) {
             error.push_back(throughHalf(expectedError(table, i)));
         }

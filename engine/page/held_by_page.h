@@ -20,10 +20,12 @@ float largestAlbedo(const Surface& surface); // 1 where the surface has no facto
 uint16_t albedoCode(float factor, float largest);
 float albedoFromCode(uint16_t code, float largest);
 
-// f and its expected error as half floats. Throws Error (data), which names the material, where a value is not finite,
-// is beyond half floats' largest or where a side has more than kMostTexelsAlong texels.
+// f and its expected error as half floats. Throws Error (data), which names the material, as requireHeld does and where
+// a side has more than kMostTexelsAlong texels.
 inline constexpr int kMostTexelsAlong = 256; // of a 3D texture, which every browser has
 Material heldByPage(Material material);
+// Throws where a value is not finite or beyond half floats' largest.
+void requireHeld(const Material& material);
 
 // The surface with its normals, factors and materials as stored; labels, residual layer, horizon and lights are stored
 // as they are.

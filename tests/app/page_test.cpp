@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "acquisition/capture/capture.h"
 #include "engine/files/error.h"
 #include "engine/files/measures.h"
 #include "engine/files/whole_file.h"
@@ -60,6 +61,15 @@ Surface pageSurface()
     for (glm::vec3& weight : surface.residual.weights) {
         weight *= 0.2f;
     }
+    return surface;
+}
+
+// A small one with a residual layer.
+Surface smallSurface()
+{
+    Surface surface = transferredSurface(bumpyNormals(24, 24), glossyMaterial());
+    surface.lights = capturedRing(9);
+    surface.residual = anyResidual(surface, 6);
     return surface;
 }
 
@@ -119,40 +129,54 @@ Light lightFrom(glm::vec3 direction, glm::vec3 irradiance, float distance = std:
     return {glm::normalize(direction), irradiance, distance};
 }
 
-// Opens the page in frames of both widths, takes it to each state and writes the canvas's pixels into the document. The
-// document's load, after which it is dumped, waits for a frame whose writing goes on.
-std::string harness(const std::vector<PageState>& states)
+// A page in a frame so wide, and where it is taken to.
+struct PageFrame {
+    std::string name; // of what is said about it
+    std::string file;
+    int width = 0;
+    std::vector<PageState> states;
+};
+
+// Opens all pages, takes them to each state and writes the canvas's pixels into the document. The document's load,
+// after which it is dumped, waits for a frame whose writing goes on.
+std::string harness(const std::vector<PageFrame>& frames)
 {
-    std::string hashes;
-    for (const PageState& state : states) {
-        hashes += fmt::format("\"{}&zoom=1\",", state.hash);
+    std::string elements, hashes;
+    for (const PageFrame& frame : frames) {
+        elements += fmt::format("<iframe class=\"page\" name=\"{}\" src=\"{}\" width=\"{}\" height=\"844\"></iframe>\n",
+                                frame.name, frame.file, frame.width);
+        hashes += fmt::format("\"{}\": [", frame.name);
+        for (const PageState& state : frame.states) {
+            hashes += fmt::format("\"{}&zoom=1\",", state.hash);
+        }
+        hashes += "],\n";
     }
     return R"(<!DOCTYPE html><meta charset="utf-8"><body><iframe id="hold"></iframe>
-<iframe class="page" src="a.html" width="390" height="844"></iframe>
-<iframe class="page" src="a.html" width="1280" height="800"></iframe>
-<script>
-const hold = document.getElementById("hold").contentDocument, hashes = [)" +
-           hashes + R"(];
+)" + elements +
+           R"(<script>
+const hold = document.getElementById("hold").contentDocument;
 hold.open();
 hold.write("<p>");
+const hashes = {)" +
+           hashes + R"(};
 const say = text => document.body.append(Object.assign(document.createElement("p"), { textContent: text }));
-async function show(frame, name) {
+async function show(frame) {
     if (!frame.contentWindow.nacrePage) {
         await new Promise(loaded => frame.addEventListener("load", loaded));
     }
     const page = await frame.contentWindow.nacrePage;
-    hashes.forEach((hash, i) => {
+    hashes[frame.name].forEach((hash, i) => {
         page.go(hash);
         const cut = document.createElement("canvas");
         cut.width = page.shape.width;
         cut.height = page.shape.height;
         cut.getContext("2d").drawImage(page.canvas, -page.frame.x, -page.frame.y);
-        say(`picture ${name}-${i} ${cut.toDataURL("image/png").split(",")[1]} end`);
+        say(`picture ${frame.name}-${i} ${cut.toDataURL("image/png").split(",")[1]} end`);
     });
     const root = frame.contentDocument.documentElement;
-    say(`wider ${name} ${root.scrollWidth > frame.contentWindow.innerWidth} end`);
+    say(`wider ${frame.name} ${root.scrollWidth > frame.contentWindow.innerWidth} end`);
 }
-Promise.all([...document.querySelectorAll(".page")].map(frame => show(frame, frame.width)))
+Promise.all([...document.querySelectorAll(".page")].map(show))
     .catch(error => say(`error ${error.stack} end`)).finally(() => hold.close());
 </script>)";
 }
@@ -197,29 +221,31 @@ bool hasBrowser()
     return runProgram("/bin/sh", {"-c", "command -v chromium"}).exitCode == 0;
 }
 
-// Half a code of rounding each, and steps of the normals' 14 bits across a highlight or a shadow's border.
-void expectShown(const std::string& document, const std::string& name, const Image& expected, const TempFolder& folder)
+Image shownPicture(const std::string& document, const std::string& name, const TempFolder& folder)
 {
     writeText(folder / "shown.png", decoded64(saidBehind(document, "picture " + name + " ")));
-    const Image shown = loadImage(folder / "shown.png");
+    return loadImage(folder / "shown.png");
+}
+
+// Half a code of rounding each, and steps of the normals' 14 bits across a highlight or a shadow's border.
+void expectAlike(const Image& shown, const Image& expected, const std::string& name)
+{
     ASSERT_EQ(shown.width, expected.width);
     ASSERT_EQ(shown.height, expected.height);
     const CodeDifference difference = codeDifference(shown, expected, 2);
-    if (getenv("SAY")) printf("%s largest %d beyond %zu of %zu\n", name.c_str(), difference.largest, difference.beyond, difference.pixels);
     EXPECT_LE(difference.share(), 0.001) << name << ": largest " << difference.largest;
 }
 
-TEST_F(Page, BrowserShowsWhatTheTwinDoes)
+// The states of a.html.
+std::vector<PageState> writeSurfacePage(const TempFolder& folder)
 {
-    if (!hasBrowser()) {
-        GTEST_SKIP() << "needs chromium (apt.txt)";
-    }
     const Surface surface = pageSurface();
-    saveSurface(folder_ / "a.nacre", surface, false);
-    saveNormalMap(folder_ / "n.exr", bumpyNormals(160, 120));
-    const ProgramRun made = exported({"--onto", path("n.exr"), "--materials", "ggx:alpha=0.3", "--tolerance", "200dB"});
-    ASSERT_EQ(made.exitCode, 0) << made.err;
-
+    saveSurface(folder / "a.nacre", surface, false);
+    saveNormalMap(folder / "n.exr", bumpyNormals(160, 120));
+    const ProgramRun made =
+        runNacre({"export", (folder / "a.nacre").string(), "--page", (folder / "a.html").string(), "--onto",
+                  (folder / "n.exr").string(), "--materials", (folder / "a.nacre#2").string(), "--tolerance", "200dB"});
+    EXPECT_EQ(made.exitCode, 0) << made.err;
     Surface own = surface;
     own.horizon = horizonMap(own.normals, own.height);
     Surface bare = own;
@@ -229,27 +255,165 @@ TEST_F(Page, BrowserShowsWhatTheTwinDoes)
     const std::vector<Light> four = {one, lightFrom({0.6f, 0.2f, 0.7f}, {0.9f, 0.2f, 0.1f}),
                                      lightFrom({0.1f, -0.8f, 0.5f}, {0.1f, 0.5f, 0.2f}),
                                      lightFrom({-0.7f, -0.2f, 0.4f}, {0.1f, 0.2f, 0.8f})};
-    const std::vector<Light> grazing = {lightFrom({0.95f, 0.1f, 0.2f}, glm::vec3(1.5f))};
-    const std::vector<PageState> states = {
-        stateOf(bare, {one}, "layer=off"),
-        stateOf(bare, four, "layer=off"),
-        stateOf(moved, four, "shape=1&material=0"),
-        stateOf(own, {one, four[1]}, "layer=on"),
-        stateOf(bare, {one}, "show=normals", Show::normals),
-        stateOf(bare, {one}, "show=labels", Show::labels),
-        stateOf(bare, four, "show=coverage&layer=off", Show::coverage),
-        stateOf(own, grazing, "layer=on"),
-        stateOf(moved, {lightFrom({0.3f, 0.4f, 0.6f}, glm::vec3(1), 1.2f)}, "shape=1&material=0")};
-    writeText(folder_ / "harness.html", harness(states));
+    const Light unmeasured = lightFrom({0.95f, 0.1f, 0.2f}, glm::vec3(1.5f));
+    const Light near = lightFrom({0.3f, 0.4f, 0.6f}, glm::vec3(1), 1.2f);
+    return {stateOf(bare, {one}, "layer=off"),
+            stateOf(bare, four, "layer=off"),
+            stateOf(moved, four, "shape=1&material=0"),
+            stateOf(own, {one, four[1]}, "layer=on"),
+            stateOf(bare, {one}, "show=normals", Show::normals),
+            stateOf(bare, {one}, "show=labels", Show::labels),
+            stateOf(bare, four, "show=coverage&layer=off", Show::coverage),
+            stateOf(own, {unmeasured}, "layer=on"),
+            stateOf(moved, {near}, "shape=1&material=0")};
+}
+
+// A capture of which two photographs are held back, and the page of the rest: what these two show, and what the program
+// says that they should.
+struct HeldOutPhotographs {
+    std::vector<PageState> states; // of b.html, with the photographs
+    std::vector<double> rendered;  // dB of nacre's own pictures
+    std::vector<uint8_t> mask;     // of the crop
+};
+
+HeldOutPhotographs writeHeldOutPage(const TempFolder& folder)
+{
+    const auto path = [&](const std::string& name) { return (folder / name).string(); };
+    EXPECT_EQ(runNacre({"synth", path("capture"), "--quiet", "--shape", "bumpy", "--side", "96", "--sphere-size", "48",
+                        "--lights", "14", "--give-lights"})
+                  .exitCode,
+              0);
+    EXPECT_EQ(runNacre({"acquire", path("capture"), "-o", path("b.nacre"), "--quiet", "--normals", "consensus",
+                        "--skip", "object_03.png", "--skip", "object_09.png"})
+                  .exitCode,
+              0);
+    EXPECT_EQ(runNacre({"export", path("b.nacre"), "--page", path("b.html"), "--quiet"}).exitCode, 0);
+    const Capture capture = loadCapture(folder / "capture");
+    Surface surface = loadSurface(folder / "b.nacre");
+    if (surface.castsShadows) {
+        surface.horizon = horizonMap(surface.normals, surface.height);
+    }
+    HeldOutPhotographs held;
+    for (const size_t i : {2, 8}) {
+        const Photograph& photograph = capture.photographs[i];
+        const Scene scene{surface, {capture.lights[i]}};
+        PageState state = stateOf(surface, scene.lights, "layer=on");
+        held.mask.clear();
+        const PageCrop crop = cropOf(surface.normals);
+        for (int y = 0; y < crop.height; ++y) {
+            for (int x = 0; x < crop.width; ++x) {
+                held.mask.push_back(surface.normals.confidence[surface.normals.index(crop.x + x, crop.y + y)] > 0);
+            }
+        }
+        const Image truth = cropped(
+            displayedImage(loadPhotograph(photograph.exposures.front().file, capture.curve), {.exposureStops = 0.5f}),
+            crop);
+        held.rendered.push_back(picturePsnr(state.expected, truth, held.mask));
+        held.states.push_back({state.hash, truth});
+    }
+    return held;
+}
+
+TEST_F(Page, BrowserShowsWhatTheTwinAndThePhotographsDo)
+{
+    if (!hasBrowser()) {
+        GTEST_SKIP() << "needs chromium (apt.txt)";
+    }
+    const std::vector<PageState> states = writeSurfacePage(folder_);
+    const HeldOutPhotographs held = writeHeldOutPage(folder_);
+    writeText(folder_ / "harness.html", harness({{"phone", "a.html", 390, states},
+                                                 {"desk", "a.html", 1280, states},
+                                                 {"held", "b.html", 390, held.states}}));
     const ProgramRun shown = browse(folder_, "harness.html");
     EXPECT_EQ(shown.err.find("CONSOLE"), std::string::npos) << shown.err;
     EXPECT_EQ(saidBehind(shown.out, "error "), "");
-    for (const std::string width : {"390", "1280"}) {
-        EXPECT_EQ(saidBehind(shown.out, "wider " + width + " "), "false");
+    for (const std::string frame : {"phone", "desk"}) {
+        EXPECT_EQ(saidBehind(shown.out, "wider " + frame + " "), "false");
         for (size_t i = 0; i < states.size(); ++i) {
-            expectShown(shown.out, fmt::format("{}-{}", width, i), states[i].expected, folder_);
+            const std::string name = fmt::format("{}-{}", frame, i);
+            expectAlike(shownPicture(shown.out, name, folder_), states[i].expected, name);
         }
     }
+    for (size_t i = 0; i < held.states.size(); ++i) {
+        const Image picture = shownPicture(shown.out, fmt::format("held-{}", i), folder_);
+        EXPECT_NEAR(picturePsnr(picture, held.states[i].expected, held.mask), held.rendered[i], 0.3);
+        EXPECT_GT(held.rendered[i], 25); // of a picture of the right thing
+    }
+}
+
+// A browser ends a script element at the first </script>, wherever it stands.
+TEST_F(Page, NamesAreText)
+{
+    Surface surface = smallSurface();
+    surface.materials[0].name = kHostile;
+    surface.lights[0].photograph = kHostile;
+    saveSurface(folder_ / "a.nacre", surface, false);
+    ASSERT_EQ(exported({}).exitCode, 0);
+    const std::string page = readTextFile(path("a.html"));
+    EXPECT_EQ(page.find("throw 1</"), std::string::npos);
+    EXPECT_EQ(page.find("<b>"), std::string::npos);
+    EXPECT_NE(page.find("\\u003c/script>\\u003cscript>throw 1"), std::string::npos);
+    fs::rename(folder_ / "a.nacre", folder_ / "<b>&\".nacre");
+    ASSERT_EQ(runNacre({"export", path("<b>&\".nacre"), "--page", path("b.html")}).exitCode, 0);
+    EXPECT_NE(readTextFile(path("b.html")).find("<title>&lt;b&gt;&amp;&quot;</title>"), std::string::npos);
+}
+
+TEST_F(Page, SaysWhatItTookAndKeepsToItsBudget)
+{
+    saveSurface(folder_ / "a.nacre", pageSurface(), false);
+    const ProgramRun whole = exported({"--threads", "1"});
+    ASSERT_EQ(whole.exitCode, 0) << whole.err;
+    for (const char* said :
+         {"KiB residual layer", "KiB cast shadows", "KiB normals", "agrees with the full measurement"}) {
+        EXPECT_NE(whole.out.find(said), std::string::npos) << said << " is not in: " << whole.out;
+    }
+    EXPECT_EQ(whole.out.find("left out"), std::string::npos) << whole.out;
+    const std::string text = readTextFile(path("a.html"));
+    ASSERT_EQ(exported({"--threads", "3", "--force", "--quiet"}).exitCode, 0);
+    EXPECT_EQ(readTextFile(path("a.html")), text);
+    const ProgramRun small = exported({"--budget-bytes", "330KiB", "--force"});
+    ASSERT_EQ(small.exitCode, 0) << small.err;
+    EXPECT_LE(fs::file_size(path("a.html")), 330u << 10);
+    EXPECT_NE(small.out.find("left out for size"), std::string::npos) << small.out;
+    EXPECT_NE(readTextFile(path("a.html")).find("Left out for size"), std::string::npos);
+    expectOneLine(exported({"--budget-bytes", "50KiB", "--force"}), Error::kUsage, {"--budget-bytes", "or more"});
+}
+
+TEST_F(Page, TakesLargeShapesDown)
+{
+    saveSurface(folder_ / "a.nacre", transferredSurface(bumpyNormals(2100, 40), glossyMaterial()), false);
+    const ProgramRun made = exported({});
+    ASSERT_EQ(made.exitCode, 0) << made.err;
+    EXPECT_NE(made.err.find("a has 2100x40 pixels: the page has every 1.03th, 2048x39"), std::string::npos) << made.err;
+}
+
+TEST_F(Page, RefusesWithTheRightCode)
+{
+    Surface surface = smallSurface();
+    saveSurface(folder_ / "a.nacre", surface, false);
+    expectOneLine(runNacre({"export", path("a.nacre"), "--page", path("a.png")}), Error::kUsage,
+                  {"--page", "NAME.html"});
+    expectOneLine(runNacre({"export", path("a.nacre"), "--albedo", path("a.exr"), "--onto", "make:head"}),
+                  Error::kUsage, {"--page FILE.html"});
+    expectOneLine(exported({"--photographs", "3"}), Error::kUsage, {"--capture"});
+    expectOneLine(exported({"--photographs", "25", "--capture", path("c")}), Error::kUsage, {"--photographs 25"});
+    expectOneLine(exported({"--photographs", "10", "--capture", path("c")}), Error::kUsage, {"at most 9"});
+    expectOneLine(exported({"--photographs", "2", "--capture", path("c")}), Error::kData, {path("c")});
+    expectOneLine(exported({"--onto", path("no.obj")}), Error::kData, {"no.obj"});
+    saveSurface(folder_ / "empty.nacre", transferredSurface(NormalMap(8, 8), surface.materials[0]), false);
+    expectOneLine(exported({"--onto", path("empty.nacre")}), Error::kData, {"empty.nacre", "normal"});
+    surface.materials[0].table.values[5] = glm::vec3(1e6f);
+    saveSurface(folder_ / "a.nacre", surface, true);
+    expectOneLine(exported({}), Error::kData, {"material model", "half floats"});
+    surface.materials.clear();
+    std::fill(surface.labels.begin(), surface.labels.end(), Surface::kNoMaterial);
+    surface.residual = {};
+    saveSurface(folder_ / "a.nacre", surface, true);
+    expectOneLine(exported({}), Error::kData, {"a.nacre", "without a material"});
+    EXPECT_FALSE(fs::exists(path("a.html")));
+    writeText(folder_ / "a.html", "mine");
+    expectOneLine(exported({}), Error::kData, {"a.html", "exists already"});
+    EXPECT_EQ(readTextFile(path("a.html")), "mine");
 }
 
 // As the page has them: with the headers in place of their include lines.
