@@ -26,7 +26,8 @@ namespace {
 
 constexpr const char* kSheet = "demo.png";
 constexpr const char* kPage = "demo.html";
-constexpr int kPagePhotographs = 6;
+constexpr int kPagePhotographs = 4;
+constexpr int kPageCloth = 240; // pixels of a side
 constexpr const char* kPageBytes = "1500000";
 constexpr int kTargetSize = 320;       // pixels of each target's side on the sheet
 constexpr size_t kShownPhotograph = 5; // an oblique light, so that shape and shadow show
@@ -106,11 +107,16 @@ std::vector<SheetCell> comparisonRow(const Capture& capture, const Surface& surf
             {amplifiedDifference(shown, rendered), "difference x 4"}};
 }
 
+NormalMap demoCloth(int side)
+{
+    return wovenCloth(side, side, {.weave = "twill", .threads = 18}).normals;
+}
+
 std::vector<PageShape> demoShapes()
 {
     std::vector<PageShape> shapes(2);
     shapes[0].name = "woven cloth";
-    shapes[0].surface.normals = wovenCloth(kTargetSize, kTargetSize, {.weave = "twill", .threads = 18}).normals;
+    shapes[0].surface.normals = demoCloth(kTargetSize);
     shapes[1].name = "carved head";
     shapes[1].surface.normals = statueHead(kTargetSize, kTargetSize).normals;
     return shapes;
@@ -163,6 +169,7 @@ std::string makeDemoPage(const DemoArguments& arguments, const std::filesystem::
     page.photographs = kPagePhotographs;
     page.size.budget = kPageBytes;
     page.threads = arguments.threads;
+    shapes.front().surface.normals = demoCloth(kPageCloth); // its yarns are most of what the page would hold
     return pageOfSurface(page, folder / "demo.nacre", surface, std::move(shapes)).text.html;
 }
 

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <limits>
+#include <optional>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -25,10 +25,11 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr int kMostSide = 2048; // pixels of a shape: 32-bit telephones hold the arrays of 4 megapixels
-constexpr int kOntoSide = 384; // pixels of the other shapes
+constexpr int kOntoSide = 384;  // pixels of the other shapes
 constexpr int kMostPagePhotographs = 24;
 constexpr int kJudgedSide = 192; // pixels of the pictures that tell what the page costs
 constexpr size_t kJudgedLights = 6;
+constexpr size_t kNoteBytes = 4096; // of what the page says of itself
 
 // Every so many pixels alone, where there are more than a page should have.
 Surface downscaled(Surface surface, const std::string& name, int mostSide, std::vector<std::string>& warnings)
@@ -110,26 +111,6 @@ struct Savings {
     }
 };
 
-// From what costs least for its bytes on. `peak`: radiance over irradiance that shows as white.
-std::vector<Savings> savingsOf(const Surface& own, float peak)
-{
-    constexpr int kFewAzimuths = 16;
-    constexpr float kFirstStep = 1.0f / 1024, kShownStep = 1.0f / 200, kLastStep = 0.1f; // of the peak
-    const int all = own.horizon.azimuths, few = std::min(all, kFewAzimuths);
-    std::vector<Savings> savings;
-    const auto addSteps = [&](int azimuths, float from, float to) {
-        for (float share = from; share < to && !own.residual.empty(); share *= 1.41421356f) {
-            savings.push_back({azimuths, share * peak});
-        }
-    };
-    addSteps(all, kFirstStep, kShownStep);
-    savings.push_back({few, kShownStep * peak});
-    addSteps(few, kShownStep, kLastStep);
-    savings.push_back({few, std::numeric_limits<float>::infinity()});
-    savings.push_back({0, std::numeric_limits<float>::infinity()});
-    return savings;
-}
-
 std::vector<Light> judgedLights(const Surface& surface)
 {
     std::vector<Light> lights;
@@ -178,30 +159,99 @@ std::string textOf(double decibels)
     return decibels >= 99 ? "exactly" : fmt::format("to {:.1f} dB", decibels);
 }
 
-// What fits into the budget (0: all): with the first savings that are enough, whose bytes fall from one to the next.
-PageText textWithin(PageContent& content, size_t budget)
+size_t bytesOf(const std::vector<PageParts::Share>& shares, const std::string& kind)
 {
-    PageText text = makePage(content);
-    if (budget == 0 || text.html.size() <= budget) {
-        return text;
+    const auto found =
+        std::find_if(shares.begin(), shares.end(), [&](const auto& share) { return share.kind == kind; });
+    return found == shares.end() ? 0 : found->bytes;
+}
+
+constexpr const char* kLayer = "residual layer";
+constexpr const char* kShadows = "cast shadows";
+
+// Savings of one of the two alone, with the bytes that are left of it.
+struct SizedSavings {
+    Savings savings;
+    size_t bytes = 0;
+};
+
+std::vector<SizedSavings> sized(const Surface& own, const std::vector<Savings>& savings, const char* kind)
+{
+    std::vector<SizedSavings> all;
+    for (const Savings& saving : savings) {
+        PageParts parts;
+        describeShape("", saving.of(own), {true, false}, parts);
+        all.push_back({saving, bytesOf(parts.shares(), kind)});
     }
-    const Surface own = content.object;
-    const std::vector<Savings> savings = savingsOf(own, peakOverIrradiance(own));
-    const auto isEnough = [&](const Savings& saving) {
-        content.object = saving.of(own);
-        text = makePage(content);
-        return text.html.size() <= budget;
-    };
-    const auto first = std::partition_point(savings.begin(), savings.end(), std::not_fn(isEnough));
-    if (first == savings.end()) {
-        isEnough(savings.back());
-        throw Error(
-            "", fmt::format("--budget-bytes {} is too little", budget),
-            fmt::format("{} or more; --size, fewer shapes or photographs make a page smaller", text.html.size()),
-            Error::kUsage);
+    return all;
+}
+
+// From all directions to none.
+std::vector<Savings> horizonSavings(const Surface& own)
+{
+    std::vector<Savings> savings;
+    for (int azimuths = own.horizon.azimuths; azimuths >= 8; azimuths /= 2) {
+        savings.push_back({azimuths, std::numeric_limits<float>::infinity()});
     }
-    isEnough(*first);
-    return text;
+    savings.push_back({0, std::numeric_limits<float>::infinity()});
+    return savings;
+}
+
+// From the layer as stored to none.
+std::vector<Savings> layerSavings(const Surface& own)
+{
+    constexpr float kFirstStep = 1.0f / 1024, kLastStep = 0.1f, kCoarser = 1.41421356f; // of the peak
+    const float peak = peakOverIrradiance(own);
+    std::vector<Savings> savings = {{0, 0}};
+    for (float share = kFirstStep; share < kLastStep && !own.residual.empty(); share *= kCoarser) {
+        savings.push_back({0, share * peak});
+    }
+    savings.push_back({0, std::numeric_limits<float>::infinity()});
+    return savings;
+}
+
+// The savings that are enough for `bytes` of layer and shadows together and cost least; none where nothing is enough.
+std::optional<Savings> bestSavings(const Surface& own, size_t bytes)
+{
+    const std::vector<SizedSavings> layers = sized(own, layerSavings(own), kLayer);
+    std::optional<Savings> best;
+    double most = 0;
+    for (const SizedSavings& horizon : sized(own, horizonSavings(own), kShadows)) {
+        const auto layer = std::find_if(layers.begin(), layers.end(), [&](const SizedSavings& sizedLayer) {
+            return sizedLayer.bytes + horizon.bytes <= bytes;
+        });
+        if (layer == layers.end()) {
+            continue;
+        }
+        const Savings both{horizon.savings.azimuths, layer->savings.step};
+        const double decibels = decibelsOf(both.of(own), own);
+        if (!best || decibels > most) {
+            best = both;
+            most = decibels;
+        }
+    }
+    return best;
+}
+
+// The object with fewer details where all are too much for the budget (0: none is set).
+void fitInto(PageContent& content, size_t budget)
+{
+    if (budget == 0) {
+        return;
+    }
+    const PageText text = makePage(content);
+    if (text.html.size() <= budget) {
+        return;
+    }
+    const size_t rest = text.html.size() - bytesOf(text.shares, kLayer) - bytesOf(text.shares, kShadows);
+    const std::optional<Savings> savings =
+        rest < budget ? bestSavings(content.object, budget - rest) : std::optional<Savings>();
+    if (!savings) {
+        throw Error("", fmt::format("--budget-bytes {} is too little", budget),
+                    fmt::format("{} or more; --size, fewer shapes or photographs make a page smaller", rest),
+                    Error::kUsage);
+    }
+    content.object = savings->of(content.object);
 }
 
 std::string describeLeftOut(const Surface& page, const Surface& own)
@@ -405,7 +455,8 @@ SurfacePage pageOfSurface(const PageArguments& arguments, const fs::path& folder
     addMaterials(arguments, size.toleranceDecibels, page, content);
     content.object = heldByPage(std::move(content.object));
     addShapes(arguments, std::move(shapes), page, content);
-    page.text = textWithin(content, size.budgetBytes);
+    // The notes, which tell what was left out, are written last.
+    fitInto(content, size.budgetBytes == 0 ? 0 : std::max<size_t>(size.budgetBytes, kNoteBytes + 1) - kNoteBytes);
     const std::string left = describeLeftOut(content.object, own);
     const double decibels = decibelsOf(content.object, own);
     content.notes = notesOf(own, content.object, left, decibels);

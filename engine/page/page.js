@@ -2,7 +2,8 @@
 "use strict";
 
 const element = id => document.getElementById(id);
-const kBallSide = 264; // pixels of the light ball's picture
+const kBallSide = 160;     // pixels of the light ball's picture
+const kBallScreenSide = 264; // and of the canvas that it is drawn on, with marks
 const kLightRadius = 0.5; // of the ball that a drag on the picture turns, in the stage's shorter side
 
 class Page {
@@ -10,7 +11,7 @@ class Page {
         this.scene = scene;
         this.canvas = gl.canvas;
         this.painter = new Painter(gl, scene);
-        this.sphere = scene.shapes[scene.shapes.length - 1];
+        this.sphere = sphereShape(kBallSide);
         this.state = stateOf(location.hash, scene);
         this.frame = { x: 0, y: 0, scale: 1 };
         this.isWaiting = false;
@@ -57,8 +58,7 @@ class Page {
         this.placeFrame();
         const picture = this.painter.picture("picture", this.shape);
         this.painter.paint(picture, this.view({}));
-        this.painter.paintScreen(picture, this.drawCompared() ?? picture, this.frame,
-            this.state.compare ? this.state.line * this.canvas.width : this.canvas.width);
+        this.painter.paintScreen(picture, this.drawCompared(), this.frame, this.state.line * this.canvas.width);
         this.drawBall();
     }
 
@@ -156,7 +156,7 @@ class Page {
             element("notes").append(Object.assign(document.createElement("dt"), { textContent: heading }),
                 Object.assign(document.createElement("dd"), { textContent: text }));
         });
-        element("ball").width = element("ball").height = kBallSide;
+        element("ball").width = element("ball").height = kBallScreenSide;
     }
 
     // `act` changes the state.
@@ -184,6 +184,8 @@ class Page {
         for (const button of element("shows").children) {
             button.setAttribute("aria-checked", button.name === state.show);
         }
+        [...element("thumbnails").children].forEach((button, i) =>
+            button.setAttribute("aria-pressed", i === state.photograph));
         this.showLights();
         this.showLine();
         element("status").textContent = this.words();
@@ -315,10 +317,9 @@ class Page {
     }
 
     choosePhotograph(i) {
-        const { direction, irradiance, nearness } = this.scene.lights[this.scene.photographs[i].light];
         Object.assign(this.state, {
-            shape: 0, material: this.scene.ownMaterials > 0 ? null : 0, lights: [{ direction, irradiance, nearness }],
-            chosen: 0, photograph: i, show: "picture", compare: "photograph",
+            shape: 0, material: null, lights: [lightOfPhotograph(i, this.scene)], chosen: 0, photograph: i,
+            show: "picture", compare: "photograph",
         });
     }
 

@@ -119,7 +119,6 @@ class Painter {
     makePicture(width, height) {
         const { gl } = this, texture = this.textureOf(gl.TEXTURE_2D, gl.LINEAR);
         gl.texStorage2D(gl.TEXTURE_2D, 1 + Math.floor(Math.log2(Math.max(width, height))), gl.RGBA8, width, height);
-        gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MIN_FILTER, gl.LINEAR_MIPMAP_LINEAR);
         return { texture, width, height };
     }
 
@@ -240,16 +239,19 @@ class Painter {
         this.finish(picture);
     }
 
-    // `frame`: x and y of the top left corner and the scale, in the canvas's pixels.
+    // `frame`: x and y of the top left corner and the scale, in the canvas's pixels. `second`: right of the line, or null.
     paintScreen(first, second, frame, line) {
         const { gl, screen } = this, { canvas } = gl;
         gl.viewport(0, 0, canvas.width, canvas.height);
         gl.useProgram(screen.program);
-        for (const [unit, name, picture] of [[0, "first", first], [1, "second", second]]) {
+        for (const [unit, name, picture] of [[0, "first", first], [1, "second", second ?? first]]) {
             this.bind(screen, unit, gl.TEXTURE_2D, name, picture.texture);
-            // From three screen pixels a pixel on, pixels are shown as they are.
-            gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MAG_FILTER, frame.scale < 3 ? gl.LINEAR : gl.NEAREST);
+            // From so many screen pixels a pixel on, pixels are shown as they are.
+            gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MAG_FILTER, frame.scale < 6 ? gl.LINEAR : gl.NEAREST);
+            gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MIN_FILTER,
+                frame.scale < 1 ? gl.LINEAR_MIPMAP_LINEAR : gl.LINEAR);
         }
+        gl.uniform1i(screen.at("isCompared"), second ? 1 : 0);
         gl.uniform2f(screen.at("origin"), frame.x, frame.y);
         gl.uniform1f(screen.at("scale"), frame.scale);
         gl.uniform1f(screen.at("screenHeight"), canvas.height);

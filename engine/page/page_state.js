@@ -27,7 +27,7 @@ function hashOf(state, scene) {
     const words = {
         shape: state.shape,
         material: state.material ?? "own",
-        light: state.lights.map(light).join(";"),
+        ...(state.photograph === null && { light: state.lights.map(light).join(";") }),
         exposure: numberText(stopsOf(state, scene) + state.stops),
         show: state.show,
         layer: state.layer ? "on" : "off",
@@ -56,6 +56,11 @@ function lightOf(text, scene) {
     };
 }
 
+function lightOfPhotograph(number, scene) {
+    const { direction, irradiance, nearness } = scene.lights[scene.photographs[number].light];
+    return { direction, irradiance, nearness };
+}
+
 // What is not understood stays as the page opens.
 function stateOf(hash, scene) {
     const state = openedState(scene), words = new URLSearchParams(hash.replace(/^#/, ""));
@@ -72,6 +77,9 @@ function stateOf(hash, scene) {
     state.show = Object.hasOwn(kShow, words.get("show")) ? words.get("show") : "picture";
     state.layer = words.get("layer") !== "off";
     state.photograph = index("photograph", scene.photographs.length);
+    if (state.photograph !== null) {
+        state.lights = [lightOfPhotograph(state.photograph, scene)];
+    }
     state.compare = comparisonsOf(state, scene).some(choice => choice.name === words.get("compare"))
         ? words.get("compare") : "";
     const line = Number(words.get("line") ?? 0.5), zoom = Number(words.get("zoom")), middle = numbersOf(words.get("middle"));
