@@ -387,7 +387,7 @@ void describeBytes(const PageText& text, std::vector<std::string>& lines)
 void PageArguments::addTo(CLI::App& command)
 {
     const char* group = "A page for a browser";
-    command.add_option("--page", file, "One page for a browser to write, FILE.html")->option_text("FILE")->group(group);
+    command.add_option("--page", file, "One page for a browser to write")->option_text("OUT.html")->group(group);
     command
         .add_option("--onto", onto,
                     "More shapes of the page, as nacre transfer takes them: make:NAME, mesh, NAME.nacre, ...")

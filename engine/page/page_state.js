@@ -35,7 +35,7 @@ function hashOf(state, scene) {
         ...(state.photograph !== null && { photograph: state.photograph }),
         ...(state.zoom && { zoom: numberText(state.zoom), middle: state.middle.map(numberText).join(",") }),
     };
-    return "#" + Object.entries(words).map(([name, value]) => `${name}=${encodeURIComponent(value)}`).join("&");
+    return "#" + Object.entries(words).map(([name, value]) => `${name}=${value}`).join("&");
 }
 
 const numbersOf = text => (text ?? "").split(",").map(Number);
