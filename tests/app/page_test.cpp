@@ -57,6 +57,7 @@ Surface pageSurface()
     }
     surface.castsShadows = true;
     surface.lights = capturedRing(9);
+    surface.lights[0].light.distance = 2; // near lights go by the pixels' heights
     surface.residual = anyResidual(surface, 6);
     for (glm::vec3& weight : surface.residual.weights) {
         weight *= 0.2f;
@@ -265,7 +266,7 @@ std::vector<PageState> writeSurfacePage(const TempFolder& folder)
             stateOf(bare, {one}, "show=labels", Show::labels),
             stateOf(bare, four, "show=coverage&layer=off", Show::coverage),
             stateOf(own, {unmeasured}, "layer=on"),
-            stateOf(moved, {near}, "shape=1&material=0")};
+            stateOf(bare, {near}, "layer=off")};
 }
 
 // A capture of which two photographs are held back, and the page of the rest: what these two show, and what the program
