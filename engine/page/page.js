@@ -178,7 +178,7 @@ class Page {
         this.fill("material", this.materialChoices(), state.material ?? "own");
         this.fill("compare", comparisonsOf(state, scene), state.compare);
         element("exposure").value = state.stops;
-        element("exposure").ariaValueText = `${state.stops >= 0 ? "+" : ""}${state.stops.toFixed(2)} stops`;
+        element("exposure").setAttribute("aria-valuetext", `${state.stops >= 0 ? "+" : ""}${state.stops.toFixed(2)} stops`);
         element("layer").checked = state.layer;
         element("layer").disabled = !hasLayer(state, scene);
         for (const button of element("shows").children) {
@@ -191,7 +191,7 @@ class Page {
         element("status").textContent = this.words();
         element("picture").setAttribute("aria-label", `${this.shape.name || scene.title}, ${state.show}`);
         clearTimeout(this.addressTimer);
-        this.addressTimer = setTimeout(() => history.replaceState(null, "", hashOf(this.state, scene)), 300);
+        this.addressTimer = setTimeout(() => history.replaceState(null, "", hashOf(this.state, scene)), 500);
     }
 
     // A list of choices, made anew where they have changed.
