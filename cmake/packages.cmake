@@ -8,6 +8,7 @@ find_package(nanoflann REQUIRED)
 find_package(CLI11 REQUIRED)
 find_package(GTest REQUIRED)
 find_package(assimp REQUIRED)
+find_package(ZLIB REQUIRED)
 find_package(glfw3 REQUIRED)
 find_package(X11) # tests of the window alone; skipped without
 find_package(PkgConfig REQUIRED)

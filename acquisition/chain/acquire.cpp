@@ -167,6 +167,10 @@ void explainLeftOut(const Measurement& measurement, ObservationBlocks& blocks, S
     EstimatedResidual residual = estimateResidual(result.surface, options.residual, leftOut, blocks);
     result.surface.residual = std::move(residual.layer);
     result.residual = std::move(residual.report);
+    const ResidualReport& report = result.residual;
+    if (report.choice != ResidualChoice::none && report.whyNot.empty()) {
+        result.surface.leftOutDecibels = report.fit.isKept ? report.fit.layerPsnr : report.fit.brdfPsnr;
+    }
 }
 
 } // namespace

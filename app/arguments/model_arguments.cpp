@@ -78,7 +78,12 @@ LadderOptions LadderArguments::options(int threads) const
     if (!budget.empty()) {
         const size_t digits = std::min(budget.find_first_not_of("0123456789"), budget.size());
         const std::string unit = budget.substr(digits);
-        const double factor = unit.empty() || unit == "B" ? 1 : unit == "KiB" ? 1024 : unit == "MiB" ? 1048576 : 0;
+        const double factor = unit.empty() || unit == "B" ? 1
+                              : unit == "kB"              ? 1e3
+                              : unit == "MB"              ? 1e6
+                              : unit == "KiB"             ? 1024
+                              : unit == "MiB"             ? 1048576
+                                                          : 0;
         const auto value = parseNumber(budget.substr(0, digits));
         if (!value || factor == 0 || *value * factor < 1 || *value * factor > 1e12) {
             throw Error("", "--budget-bytes " + budget + " is not understood", "a number of bytes, e.g. 65536 or 64KiB",

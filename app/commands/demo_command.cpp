@@ -7,6 +7,7 @@
 #include "app/arguments/destinations.h"
 #include "app/arguments/model_arguments.h"
 #include "app/commands/commands.h"
+#include "app/page/page_export.h"
 #include "app/report/acquisition_summary.h"
 #include "app/report/contact_sheet.h"
 #include "app/report/progress_line.h"
@@ -24,6 +25,10 @@ namespace nacre {
 namespace {
 
 constexpr const char* kSheet = "demo.png";
+constexpr const char* kPage = "demo.html";
+constexpr int kPagePhotographs = 4;
+constexpr int kPageCloth = 240; // pixels of a side
+constexpr const char* kPageBytes = "1500000";
 constexpr int kTargetSize = 320;       // pixels of each target's side on the sheet
 constexpr size_t kShownPhotograph = 5; // an oblique light, so that shape and shadow show
 
@@ -102,13 +107,27 @@ std::vector<SheetCell> comparisonRow(const Capture& capture, const Surface& surf
             {amplifiedDifference(shown, rendered), "difference x 4"}};
 }
 
-std::vector<SheetCell> transferRow(const char* name, const NormalMap& target, const Material& material,
-                                   Renderer& renderer)
+NormalMap demoCloth(int side)
+{
+    return wovenCloth(side, side, {.weave = "twill", .threads = 18}).normals;
+}
+
+std::vector<PageShape> demoShapes()
+{
+    std::vector<PageShape> shapes(2);
+    shapes[0].name = "woven cloth";
+    shapes[0].surface.normals = demoCloth(kTargetSize);
+    shapes[1].name = "carved head";
+    shapes[1].surface.normals = statueHead(kTargetSize, kTargetSize).normals;
+    return shapes;
+}
+
+std::vector<SheetCell> transferRow(const PageShape& shape, const Material& material, Renderer& renderer)
 {
     std::vector<SheetCell> row;
-    renderer.setSurface(transferredSurface(target, material));
+    renderer.setSurface(transferredSurface(shape.surface.normals, material));
     for (const Lighting& lighting : lightings()) {
-        row.push_back({display(renderer.render(lighting.lights)), fmt::format("{}: {}", name, lighting.name)});
+        row.push_back({display(renderer.render(lighting.lights)), fmt::format("{}: {}", shape.name, lighting.name)});
     }
     return row;
 }
@@ -127,17 +146,31 @@ Capture demoPhotographs(const DemoArguments& arguments, const std::filesystem::p
     return loadCapture(folder / "capture");
 }
 
-Image makeSheet(const Capture& capture, const Surface& surface, const DemoArguments& arguments)
+Image makeSheet(const Capture& capture, const Surface& surface, const std::vector<PageShape>& shapes,
+                const DemoArguments& arguments)
 {
     const Context context(arguments.device);
     Renderer renderer(context);
     std::vector<std::vector<SheetCell>> rows;
     rows.push_back(comparisonRow(capture, surface, renderer));
-    const Material& material = surface.materials.front();
-    const Target cloth = wovenCloth(kTargetSize, kTargetSize, {.weave = "twill", .threads = 18});
-    rows.push_back(transferRow("woven cloth", cloth.normals, material, renderer));
-    append(rows.back(), transferRow("carved head", statueHead(kTargetSize, kTargetSize).normals, material, renderer));
+    rows.emplace_back();
+    for (const PageShape& shape : shapes) {
+        append(rows.back(), transferRow(shape, surface.materials.front(), renderer));
+    }
     return contactSheet(rows, kTargetSize, kTargetSize);
+}
+
+// The same to be lit in a browser.
+std::string makeDemoPage(const DemoArguments& arguments, const std::filesystem::path& folder, const Surface& surface,
+                         std::vector<PageShape> shapes)
+{
+    PageArguments page;
+    page.capture = folder / "capture";
+    page.photographs = kPagePhotographs;
+    page.size.budget = kPageBytes;
+    page.threads = arguments.threads;
+    shapes.front().surface.normals = demoCloth(kPageCloth); // its yarns are most of what the page would hold
+    return pageOfSurface(page, folder / "demo.nacre", surface, std::move(shapes)).text.html;
 }
 
 void runDemo(const DemoArguments& arguments)
@@ -161,15 +194,19 @@ void runDemo(const DemoArguments& arguments)
     const Acquisition result = acquire(capture, options, progressLine(arguments.quiet));
     endProgressLine(arguments.quiet);
     saveSurface(output.temporary() / "demo.nacre", result.surface, false);
-    const Image sheet = makeSheet(capture, result.surface, arguments);
+    const std::vector<PageShape> shapes = demoShapes();
+    const Image sheet = makeSheet(capture, result.surface, shapes, arguments);
     saveImage(output.temporary() / kSheet, sheet, PixelType::uint8);
+    writeTextFile(output.temporary() / kPage, makeDemoPage(arguments, output.temporary(), result.surface, shapes));
     output.commit();
     if (!arguments.quiet) {
         fmt::print("{}{}{}", describeNormals(capture, result.estimate), describeBrdf(result),
                    describe(result.estimate.times));
         fmt::print("in all       {:.1f} seconds\n", watch.seconds());
     }
-    fmt::print("{}\n", (std::filesystem::absolute(arguments.folder) / kSheet).string());
+    for (const char* file : {kSheet, kPage}) {
+        fmt::print("{}\n", (std::filesystem::absolute(arguments.folder) / file).string());
+    }
 }
 
 } // namespace
@@ -178,14 +215,14 @@ void addDemoCommand(CLI::App& app)
 {
     auto arguments = std::make_shared<DemoArguments>();
     CLI::App* command = app.add_subcommand("demo", "The whole chain on a small capture that is made on the spot");
-    command->add_option("-o,--output", arguments->folder, "Folder for the capture, the surface and demo.png")
+    command->add_option("-o,--output", arguments->folder, "Folder for the capture, the surface, demo.png and demo.html")
         ->option_text("OUT")
         ->capture_default_str();
     command->add_option("--device", arguments->device,
                         "Vulkan device: number or part of its name in nacre info (default: the first)");
     command->add_option("--threads", arguments->threads, "Number of threads (default: all)");
     command->add_flag("--force", arguments->force, "Replacement of an existing folder");
-    command->add_flag("--quiet", arguments->quiet, "No messages but the picture's path");
+    command->add_flag("--quiet", arguments->quiet, "No messages but the paths of picture and page");
     command->footer("Example:\n  nacre demo -o /tmp/nacre-demo");
     command->callback([arguments] { runDemo(*arguments); });
 }

@@ -17,6 +17,7 @@
 #include "app/arguments/destinations.h"
 #include "app/commands/commands.h"
 #include "app/materials/parameter_export.h"
+#include "app/page/page_export.h"
 #include "engine/files/error.h"
 #include "engine/files/parallel_for.h"
 #include "engine/files/text_files.h"
@@ -152,11 +153,15 @@ struct ExportArguments {
     bool shadows = false;
     bool quiet = false;
     bool force = false;
+    PageArguments page;
 
     void addTo(CLI::App& command);
     // Throws usage Errors, and data Errors for outputs that cannot be written.
     void check() const;
-    bool asksNothingElse() const { return ptm.empty() && web.empty() && normals.empty() && albedo.empty(); }
+    bool asksNothingElse() const
+    {
+        return ptm.empty() && web.empty() && normals.empty() && albedo.empty() && page.file.empty();
+    }
 };
 
 constexpr int kFewestLights = 18; // twice the terms of the larger basis
@@ -203,10 +208,12 @@ void requireChoices(const ExportArguments& arguments)
 
 void requireOutputs(const ExportArguments& arguments)
 {
-    std::vector<fs::path> outputs = {arguments.ptm, arguments.web, arguments.normals, arguments.albedo};
+    std::vector<fs::path> outputs = {arguments.ptm, arguments.web, arguments.normals, arguments.albedo,
+                                     arguments.page.file};
     std::erase_if(outputs, [](const fs::path& output) { return output.empty(); });
     if (outputs.empty() && !arguments.parameters.isAsked()) {
-        throw usageError("nothing is asked for", "--ptm, --rti-web, --write-normals, --albedo, --gltf or --materialx");
+        throw usageError("nothing is asked for",
+                         "--page, --ptm, --rti-web, --write-normals, --albedo, --gltf or --materialx");
     }
     arguments.parameters.check();
     for (size_t i = 0; i < outputs.size(); ++i) {
@@ -225,7 +232,7 @@ void ExportArguments::addTo(CLI::App& command)
 {
     command
         .add_option("SURFACE", surface, "Folder NAME.nacre of nacre acquire; for --gltf and --materialx any material")
-        ->option_text("OUT.png|OUT.exr")
+        ->option_text("NAME.nacre|MATERIAL")
         ->required();
     command.add_option("--ptm", ptm, "Polynomial texture map to write, FILE.ptm")->option_text("FILE");
     command
@@ -245,8 +252,6 @@ void ExportArguments::addTo(CLI::App& command)
     command.add_option("--balls", parameters.balls, "Balls of the materials beside those of the parameters, FILE.png")
         ->option_text("FILE");
     command.add_option("--width", parameters.width, "Width of --gltf in metres")->capture_default_str();
-    command.add_option("--fits", parameters.fits, "Folder of published fits (default: NACRE_FITS_DIR)")
-        ->option_text("DIR");
     command.add_option("--lights", lights, "Number of virtual lights for the fits of --ptm and --rti-web")
         ->capture_default_str();
     command.add_option("--exposure", exposure,
@@ -257,11 +262,13 @@ void ExportArguments::addTo(CLI::App& command)
     command.add_option("--threads", threads, "Number of threads (default: all)");
     command.add_flag("--quiet", quiet, "No summary");
     command.add_flag("--force", force, "Replacement of existing outputs");
+    page.addTo(command);
 }
 
 void ExportArguments::check() const
 {
     requireChoices(*this);
+    page.check();
     requireOutputs(*this);
 }
 
@@ -439,12 +446,32 @@ void exportMaps(const ExportArguments& arguments, const Surface& surface)
     }
 }
 
+void exportPage(const ExportArguments& arguments, const Surface& surface)
+{
+    if (arguments.page.file.empty()) {
+        return;
+    }
+    PageArguments page = arguments.page;
+    page.shadows = arguments.shadows;
+    page.threads = arguments.threads;
+    const SurfacePage made = pageOfSurface(page, arguments.surface, surface);
+    for (const std::string& warning : made.warnings) {
+        fmt::print(stderr, "nacre: warning: {}\n", warning);
+    }
+    writeTextFile(page.file, made.text.html);
+    print(arguments,
+          fmt::format("{}: {:.2f} MB", page.file.string(), static_cast<double>(made.text.html.size()) / 1e6));
+    for (const std::string& line : made.lines) {
+        print(arguments, "  " + line);
+    }
+}
+
 // Of the arguments that both kinds of export share.
 ParameterExport parametersOf(const ExportArguments& arguments)
 {
     ParameterExport asked = arguments.parameters;
     asked.source = arguments.surface.string();
-    asked.fits = fitsFolderFrom(asked.fits);
+    asked.fits = fitsFolderFrom(arguments.page.fits);
     asked.threads = arguments.threads;
     asked.quiet = arguments.quiet;
     asked.force = arguments.force;
@@ -464,6 +491,7 @@ void runExport(ExportArguments& arguments)
     const Surface surface = surfaceToExport(arguments);
     exportMaps(arguments, surface);
     exportRti(arguments, surface);
+    exportPage(arguments, surface);
 }
 
 } // namespace

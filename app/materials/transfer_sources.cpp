@@ -19,6 +19,7 @@
 #include "engine/lights/light_rigs.h"
 #include "engine/loading/scene_loading.h"
 #include "engine/materials/material_specification.h"
+#include "engine/target/mesh_file.h"
 
 namespace nacre {
 
@@ -189,20 +190,6 @@ TransferRow labelledRow(const std::vector<IndexedValue>& labels, const TransferA
     return row;
 }
 
-std::vector<TransferRow> rowsOf(const TransferArguments& arguments, const std::vector<IndexedValue>& labels)
-{
-    std::vector<TransferRow> rows;
-    const std::vector<std::string> specifications = listFromArguments(arguments.materials);
-    const std::vector<std::string> names = shortNames(specifications);
-    for (size_t i = 0; i < specifications.size(); ++i) {
-        rows.push_back({names[i], {loadNamed(specifications[i], arguments)}, {}});
-    }
-    if (!labels.empty()) {
-        rows.push_back(labelledRow(labels, arguments));
-    }
-    return rows;
-}
-
 void requireParts(const std::vector<IndexedValue>& labels, const std::vector<TransferTarget>& targets)
 {
     const auto most = std::max_element(targets.begin(), targets.end(), [](const auto& a, const auto& b) {
@@ -218,17 +205,31 @@ void requireParts(const std::vector<IndexedValue>& labels, const std::vector<Tra
     }
 }
 
-std::vector<TransferTarget> targetsOf(const TransferArguments& arguments, std::vector<std::string>& warnings)
+} // namespace
+
+std::vector<TransferRow> loadTransferRows(const TransferArguments& arguments)
+{
+    std::vector<TransferRow> rows;
+    const std::vector<std::string> specifications = listFromArguments(arguments.materials);
+    const std::vector<std::string> names = shortNames(specifications);
+    for (size_t i = 0; i < specifications.size(); ++i) {
+        rows.push_back({names[i], {loadNamed(specifications[i], arguments)}, {}});
+    }
+    return rows;
+}
+
+std::vector<TransferTarget> loadTransferTargets(const TransferArguments& arguments, std::vector<std::string>& warnings)
 {
     const std::vector<std::string> sources = listFromArguments(arguments.targets);
     const std::vector<std::string> names = shortNames(sources);
     std::vector<TransferTarget> targets;
     for (size_t i = 0; i < sources.size(); ++i) {
+        const bool isDrawn = sources[i].starts_with("make:") || isMeshFile(sources[i]);
         TargetReport report = targetFromSource({.source = sources[i],
                                                 .output = {},
                                                 .from = {},
                                                 .up = {},
-                                                .size = arguments.size,
+                                                .size = isDrawn || arguments.enlarges ? arguments.size : "",
                                                 .normalMap = {},
                                                 .normalY = {},
                                                 .heightScale = {},
@@ -243,8 +244,6 @@ std::vector<TransferTarget> targetsOf(const TransferArguments& arguments, std::v
     return targets;
 }
 
-} // namespace
-
 TransferSources loadTransferSources(const TransferArguments& arguments)
 {
     TransferSources sources;
@@ -253,8 +252,13 @@ TransferSources loadTransferSources(const TransferArguments& arguments)
     if (arguments.materials.empty() && labels.empty()) {
         throw Error("", "no material is named", "--materials A,B or --labels 0=A,1=B", Error::kUsage);
     }
-    sources.materialSeconds = secondsOf([&] { sources.rows = rowsOf(arguments, labels); });
-    sources.targetSeconds = secondsOf([&] { sources.targets = targetsOf(arguments, sources.warnings); });
+    sources.materialSeconds = secondsOf([&] {
+        sources.rows = loadTransferRows(arguments);
+        if (!labels.empty()) {
+            sources.rows.push_back(labelledRow(labels, arguments));
+        }
+    });
+    sources.targetSeconds = secondsOf([&] { sources.targets = loadTransferTargets(arguments, sources.warnings); });
     requireParts(labels, sources.targets);
     return sources;
 }

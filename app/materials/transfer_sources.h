@@ -17,6 +17,7 @@ struct TransferArguments {
     std::filesystem::path fits;
     std::filesystem::path output;
     std::string size = "512x512";
+    bool enlarges = true; // pictures and surfaces to that size too, beside what is drawn or made
     std::string motion;
     std::string device;
     int frames = 1;
@@ -46,6 +47,10 @@ struct TransferSources {
     std::vector<std::string> warnings;             // for stderr
     double materialSeconds = 0, targetSeconds = 0; // of reading
 };
+
+// The rows of --materials, and the targets of --onto. Throw Error.
+std::vector<TransferRow> loadTransferRows(const TransferArguments& arguments);
+std::vector<TransferTarget> loadTransferTargets(const TransferArguments& arguments, std::vector<std::string>& warnings);
 
 // Throws Error about whatever cannot be used, before anything is written.
 TransferSources loadTransferSources(const TransferArguments& arguments);

@@ -20,11 +20,12 @@ public:
     // The point itself inside, else the nearest of the hull.
     glm::vec2 nearest(const glm::vec2& point) const;
     bool contains(const glm::vec2& point) const { return nearest(point) == point; }
+    const std::vector<glm::vec2>& corners() const { return corners_; } // counter-clockwise
     // 0 where all points lie on a line.
     double area() const;
 
 private:
-    std::vector<glm::vec2> corners_; // counter-clockwise
+    std::vector<glm::vec2> corners_;
 };
 
 // Mean distance of each point from its nearest neighbour; 0 of fewer than two.

@@ -65,6 +65,15 @@ float outlineHeight(const NormalMap& normals, const Image& height)
     return count > 0 ? static_cast<float>(sum / count) : 0.0f;
 }
 
+glm::vec4 viewpointOf(const Surface& surface, const glm::vec3& view)
+{
+    if (!surface.camera || !isFromTheFront(view)) {
+        return {view, 0};
+    }
+    const float distance = glm::length(*surface.camera);
+    return {*surface.camera / distance, 1 / distance};
+}
+
 std::vector<glm::vec3> pixelPlaces(const Surface& surface)
 {
     if (!surface.places.empty()) {
@@ -75,7 +84,7 @@ std::vector<glm::vec3> pixelPlaces(const Surface& surface)
     const ObjectExtent extent = extentOf(pixels, normals.width);
     const bool hasHeight = !surface.height.values.empty();
     const float plane = hasHeight ? outlineHeight(normals, surface.height) : 0.0f;
-    const glm::dvec2 axis(surface.camera.value_or(glm::vec3(0)));
+    const glm::vec4 viewpoint = viewpointOf(surface, {0, 0, 1});
     std::vector<glm::vec3> places(normals.normals.size(), glm::vec3(0));
     for (const uint32_t pixel : pixels) {
         const uint32_t column = pixel % static_cast<uint32_t>(normals.width),
@@ -83,8 +92,7 @@ std::vector<glm::vec3> pixelPlaces(const Surface& surface)
         const double x = column + 0.5, y = row + 0.5;
         const double z = hasHeight ? surface.height.values[pixel] - plane : 0;
         const glm::dvec3 place = glm::dvec3(x - extent.middle.x, extent.middle.y - y, z) / extent.width;
-        const double towards = surface.camera ? place.z / surface.camera->z : 0.0;
-        places[pixel] = glm::vec3(glm::mix(glm::dvec2(place), axis, towards), place.z);
+        places[pixel] = placeOnRay(viewpoint, glm::vec2(place), static_cast<float>(place.z));
     }
     return places;
 }
@@ -103,15 +111,6 @@ Image heightInPicture(const Surface& surface)
         z = width * heightInPicture(viewpoint, (z - plane) / width);
     }
     return height;
-}
-
-glm::vec4 viewpointOf(const Surface& surface, const glm::vec3& view)
-{
-    if (!surface.camera || !isFromTheFront(view)) {
-        return {view, 0};
-    }
-    const float distance = glm::length(*surface.camera);
-    return {*surface.camera / distance, 1 / distance};
 }
 
 bool anyIsNear(std::span<const Light> lights)

@@ -57,6 +57,8 @@ struct Surface {
     std::vector<CapturedLight> lights;
     std::string transfer; // of the photographs: linear or srgb; empty: not known, or as they declare it themselves
     RadianceScale scale = RadianceScale::relative;
+    // dB of the photographs, each predicted from the others, mean over them (acquire); empty: not known.
+    std::optional<double> leftOutDecibels{};
 };
 
 // Whether the pixel has a normal and a material.

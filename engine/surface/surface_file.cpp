@@ -104,6 +104,9 @@ nlohmann::json descriptionOf(const Surface& surface)
     if (surface.castsShadows) {
         json["shadows"] = true;
     }
+    if (surface.leftOutDecibels) {
+        json["leftOutDecibels"] = *surface.leftOutDecibels;
+    }
     if (!surface.parts.empty()) {
         json["parts"] = surface.parts;
     }
@@ -323,6 +326,9 @@ Surface surfaceOf(const JsonNode& root)
         if (surface.castsShadows && surface.height.values.empty()) {
             throw shadows->error("is true, but there are no heights to cast any", "\"heights\", or no shadows");
         }
+    }
+    if (const auto decibels = root.find("leftOutDecibels")) {
+        surface.leftOutDecibels = decibels->number();
     }
     for (const JsonNode& light : root.at("lights").items()) {
         surface.lights.push_back({light.at("photograph").text(), lightOf(light)});

@@ -1,7 +1,5 @@
 #include "evaluation/charts/html_page.h"
 
-#include <cstdint>
-
 #include <fmt/format.h>
 
 #include "engine/files/whole_file.h"
@@ -30,49 +28,7 @@ tr.front td { color: #0072b2; }
 tr.default td { color: #d55e00; font-weight: bold; }
 </style>)";
 
-// RFC 4648, section 4.
-std::string base64(const std::string& bytes)
-{
-    constexpr const char* kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    std::string text;
-    for (size_t i = 0; i < bytes.size(); i += 3) {
-        uint32_t group = 0;
-        for (size_t j = 0; j < 3; ++j) {
-            group = group << 8 | (i + j < bytes.size() ? static_cast<unsigned char>(bytes[i + j]) : 0u);
-        }
-        for (size_t j = 0; j < 4; ++j) {
-            text += i + j <= bytes.size() ? kDigits[group >> (18 - 6 * j) & 63] : '=';
-        }
-    }
-    return text;
-}
-
 } // namespace
-
-std::string escaped(const std::string& text)
-{
-    std::string result;
-    for (const char c : text) {
-        switch (c) {
-        case '&':
-            result += "&amp;";
-            break;
-        case '<':
-            result += "&lt;";
-            break;
-        case '>':
-            result += "&gt;";
-            break;
-        case '"':
-            result += "&quot;";
-            break;
-        default:
-            // Control characters stand in no XML, however they are written.
-            result += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
-        }
-    }
-    return result;
-}
 
 std::string pageHead(const std::string& title, const std::string& heading)
 {

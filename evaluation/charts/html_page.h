@@ -4,12 +4,11 @@
 #include <utility>
 #include <vector>
 
+#include "engine/files/markup.h"
+
 namespace nacre {
 
 // Pages that need no other file, no network and no script, and fit a telephone's width.
-
-// For XML and HTML, in text and in attributes.
-std::string escaped(const std::string& text);
 
 // To the heading, which stands in the text; both are plain text.
 std::string pageHead(const std::string& title, const std::string& heading);

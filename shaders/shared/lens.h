@@ -28,6 +28,14 @@ NACRE_FN vec3 directionInPicture(vec4 viewpoint, vec3 place, vec3 l)
     return normalize((1.0f - nearness * place.z) * l + l.z * fromAxis);
 }
 
+// Where the ray through a point of the plane z = 0 has that height.
+NACRE_FN vec3 placeOnRay(vec4 viewpoint, vec2 onPlane, float height)
+{
+    float share = height * viewpoint.w / viewpoint.z;
+    vec2 axis = viewpoint.w == 0.0f ? onPlane : vec2(viewpoint.x, viewpoint.y) / viewpoint.w;
+    return vec3(onPlane + share * (axis - onPlane), height);
+}
+
 // Height of a point's image in the picture's scene, in the unit of the distances.
 NACRE_FN float heightInPicture(vec4 viewpoint, float height)
 {

@@ -57,7 +57,9 @@ std::vector<std::string> argumentsFor(const Output& output, const fs::path& plac
 {
     std::vector<std::string> arguments = {output.command->get_name()};
     for (const CLI::Option* option : output.command->get_options()) {
-        const bool isNeeded = option->get_positional() || option->get_required() || option->check_name("--onto");
+        const bool isTransfer = output.command->get_name() == "transfer"; // needs a shape
+        const bool isNeeded =
+            option->get_positional() || option->get_required() || (isTransfer && option->check_name("--onto"));
         if (!isNeeded && option != output.option) {
             continue;
         }

@@ -1,0 +1,104 @@
+#include "engine/page/held_by_page.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include "engine/files/error.h"
+#include "engine/scene/coverage.h"
+#include "shared/ball.h"
+
+namespace nacre {
+namespace {
+
+constexpr float kMostHeld = 65504; // the largest half float
+
+bool isHeld(const glm::vec3& f)
+{
+    return std::isfinite(f.x + f.y + f.z) && std::max({f.x, f.y, f.z}) <= kMostHeld;
+}
+
+} // namespace
+
+glm::u16vec2 normalCode(const glm::vec3& normal)
+{
+    return glm::u16vec2(glm::round(kNormalSteps * (packedFromNormal(normal) + 1.0f)));
+}
+
+glm::vec3 normalFromCode(const glm::u16vec2& code)
+{
+    return glm::normalize(normalFromDisc(kPackedReach * (glm::vec2(code) / kNormalSteps - 1.0f)));
+}
+
+float largestAlbedo(const Surface& surface)
+{
+    const auto& values = surface.albedo.values;
+    return values.empty() ? 1.0f : std::max(1e-6f, *std::max_element(values.begin(), values.end()));
+}
+
+uint16_t albedoCode(float factor, float largest)
+{
+    return static_cast<uint16_t>(std::lround(kAlbedoSteps * std::sqrt(std::clamp(factor / largest, 0.0f, 1.0f))));
+}
+
+float albedoFromCode(uint16_t code, float largest)
+{
+    const float root = static_cast<float>(code) / kAlbedoSteps;
+    return largest * root * root;
+}
+
+void requireHeld(const Material& material)
+{
+    for (const glm::vec3& f : material.table.values) {
+        if (!isHeld(f)) {
+            throw Error("",
+                        fmt::format("material {} has values that are not finite or above {}", material.name, kMostHeld),
+                        "reflectance that half floats, which a page has, can hold");
+        }
+    }
+}
+
+Material heldByPage(Material material)
+{
+    BrdfTable& table = material.table;
+    if (std::max({table.size.x, table.size.y, table.size.z}) > kMostTexelsAlong) {
+        throw Error(
+            "",
+            fmt::format("material {} has a table of {}x{}x{}", material.name, table.size.x, table.size.y, table.size.z),
+            fmt::format("at most {} texels a side, as a page can hold them", kMostTexelsAlong));
+    }
+    requireHeld(material);
+    const bool isTold = knowsCoverage(table);
+    std::vector<float> error;
+    for (size_t i = 0; i < table.values.size(); ++i) {
+        if (isTold) {
+            error.push_back(throughHalf(expectedError(table, i)));
+        }
+        table.values[i] = quantised(table.values[i], TexelFormat::rgba16f);
+    }
+    table.error = std::move(error);
+    return material;
+}
+
+Surface heldByPage(Surface surface)
+{
+    for (size_t i = 0; i < surface.normals.normals.size(); ++i) {
+        if (surface.normals.confidence[i] > 0) {
+            surface.normals.normals[i] = normalFromCode(normalCode(surface.normals.normals[i]));
+        }
+    }
+    const float largest = largestAlbedo(surface);
+    for (float& factor : surface.albedo.values) {
+        factor = albedoFromCode(albedoCode(factor, largest), largest);
+    }
+    for (Material& material : surface.materials) {
+        material = heldByPage(std::move(material));
+    }
+    return surface;
+}
+
+} // namespace nacre

@@ -1,0 +1,34 @@
+#pragma once
+#include <cstdint>
+
+#include <glm/vec2.hpp>
+
+#include "engine/surface/surface.h"
+
+namespace nacre {
+
+// What a page stores of a surface, as whole numbers: the surface that its reader sees.
+
+// A normal by ball.h's two numbers, 14 bits each: steps of 0.01 degrees. In 16, what a page has most of would be noise.
+inline constexpr float kNormalSteps = 8191; // of the code, from 0 to 1
+glm::u16vec2 normalCode(const glm::vec3& normal);
+glm::vec3 normalFromCode(const glm::u16vec2& code);
+
+// An albedo factor by its square root, in ten bits from 0 to the surface's largest.
+inline constexpr float kAlbedoSteps = 1023;
+float largestAlbedo(const Surface& surface); // 1 where the surface has no factors
+uint16_t albedoCode(float factor, float largest);
+float albedoFromCode(uint16_t code, float largest);
+
+// f and its expected error as half floats. Throws Error (data), which names the material, as requireHeld does and where
+// a side has more than kMostTexelsAlong texels.
+inline constexpr int kMostTexelsAlong = 256; // of a 3D texture, which every browser has
+Material heldByPage(Material material);
+// Throws where a value is not finite or beyond half floats' largest.
+void requireHeld(const Material& material);
+
+// The surface with its normals, factors and materials as stored; labels, residual layer, horizon and lights are stored
+// as they are.
+Surface heldByPage(Surface surface);
+
+} // namespace nacre
