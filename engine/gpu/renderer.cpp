@@ -67,6 +67,27 @@ void Renderer::setSurface(Surface surface, std::vector<BallSize> sizes)
     ballsAreStale_ = pictureIsStale_ = true;
 }
 
+void Renderer::setPixels(const Surface& pixels)
+{
+    const bool isOtherSize =
+        pixels.normals.width != surface_.normals.width || pixels.normals.height != surface_.normals.height;
+    surface_.normals = pixels.normals;
+    surface_.labels = pixels.labels;
+    surface_.height = pixels.height;
+    surface_.horizon = pixels.horizon;
+    surface_.places = pixels.places;
+    pixels_.reset();
+    exposurePixels_.reset();
+    directFrame_.reset();
+    exposureFrame_.reset();
+    radiance_.reset();
+    if (isOtherSize) {
+        ballFrame_.reset();
+        picture_.reset();
+    }
+    pictureIsStale_ = true;
+}
+
 void Renderer::materialBallHasChanged()
 {
     if (materialBall_) {

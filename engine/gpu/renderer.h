@@ -23,6 +23,8 @@ public:
 
     // `sizes`: measuredBallSize of each material, where they are known already; they take a while to measure.
     void setSurface(Surface surface, std::vector<BallSize> sizes = {});
+    // Other pixels of the same materials, without albedo factors and layers as the surface is: balls stay.
+    void setPixels(const Surface& pixels);
     void setLights(std::span<const Light> lights);
     void setView(const glm::vec3& view); // unit, towards the viewer
     void setPath(RenderPath path);

@@ -18,6 +18,7 @@
 #include "engine/scene/scene_residual.h"
 #include "engine/surface/height_from_normals.h"
 #include "engine/target/mesh_file.h"
+#include "engine/target/mesh_raster.h"
 
 namespace nacre {
 namespace fs = std::filesystem;
@@ -56,7 +57,7 @@ constexpr int kMostEnvironmentLights = 100000;
 Surface surfaceOnto(const SceneDescription& scene, const Material& material)
 {
     const std::filesystem::path& onto = scene.onto;
-    if (onto.string().rfind("make:", 0) == 0 || isMeshFile(onto)) {
+    if (onto.string().rfind("make:", 0) == 0) {
         throw Error(onto, "is no normal map yet",
                     fmt::format("T.nacre of nacre target {} -o T.nacre, or nacre transfer", onto.string()),
                     Error::kUsage);
@@ -80,14 +81,26 @@ Surface loadMeasured(const SceneDescription& scene, const std::filesystem::path&
     return surface;
 }
 
+void requireMaterial(const Surface& measured, const fs::path& file)
+{
+    if (measured.materials.empty()) {
+        throw Error(file, "holds no material", "one to put onto other normals");
+    }
+}
+
 // The measured one, or its first material on other normals; fitted into the size where given.
 Surface drawnSurfaceOf(const SceneDescription& scene, Surface measured, const Context& context)
 {
     std::vector<CapturedLight> captured = measured.lights;
+    if (isMeshFile(scene.onto)) {
+        requireMaterial(measured, scene.surface);
+        Surface dressed;
+        dressed.materials = {std::move(measured.materials.front())};
+        dressed.lights = std::move(captured);
+        return dressed;
+    }
     if (!scene.onto.empty()) {
-        if (measured.materials.empty()) {
-            throw Error(scene.surface, "holds no material", "one to put onto other normals");
-        }
+        requireMaterial(measured, scene.surface);
         measured = surfaceOnto(scene, measured.materials.front());
     } else if (measured.materials.empty()) {
         throw Error(scene.surface, "is a target without a material",
@@ -157,6 +170,10 @@ void requireConsistent(const SceneDescription& scene)
     if (scene.normalY && scene.onto.empty()) {
         throw Error("", "normal-y has nothing to turn", "other normals to put the material onto", Error::kUsage);
     }
+    if (scene.turn != Turn() && !isMeshFile(scene.onto)) {
+        throw Error(scene.onto, "cannot be turned", "a mesh to put the material onto (.obj, .ply, .gltf, .glb, .stl)",
+                    Error::kUsage);
+    }
 }
 
 void castShadows(Surface& surface, const std::filesystem::path& source)
@@ -177,9 +194,43 @@ void castShadows(Surface& surface, const std::filesystem::path& source)
     surface.horizon = horizonMap(surface.normals, surface.height);
 }
 
+LoadedSurface loadSurfaceOrMesh(const SceneDescription& scene, const fs::path& fits, const Context& context)
+{
+    LoadedSurface loaded;
+    if (isMeshFile(scene.onto)) {
+        loaded.mesh = std::make_shared<const Mesh>(loadMesh(scene.onto));
+    }
+    loaded.surface = drawnSurfaceOf(scene, loadMeasured(scene, fits), context);
+    return loaded;
+}
+
+void drawMesh(const Context& context, const Mesh& mesh, const SceneDescription& scene, Surface& surface)
+{
+    MeshViewOptions options{.turn = scene.turn};
+    if (scene.size) {
+        options.width = scene.size->width;
+        options.height = scene.size->height;
+    }
+    Surface seen = rasterisedMesh(context, mesh, fittedView(mesh, options));
+    surface.labels.assign(seen.labels.size(), Surface::kNoMaterial);
+    for (size_t i = 0; i < seen.labels.size(); ++i) {
+        surface.labels[i] = seen.normals.confidence[i] > 0 ? 0 : Surface::kNoMaterial;
+    }
+    surface.normals = std::move(seen.normals);
+    surface.height = std::move(seen.height);
+    surface.horizon = {};
+    if (scene.shadows.value_or(false)) {
+        castShadows(surface, scene.onto);
+    }
+}
+
 Surface loadDrawnSurface(const SceneDescription& scene, const std::filesystem::path& fits, const Context& context)
 {
-    return drawnSurfaceOf(scene, loadMeasured(scene, fits), context);
+    LoadedSurface loaded = loadSurfaceOrMesh(scene, fits, context);
+    if (loaded.mesh) {
+        drawMesh(context, *loaded.mesh, scene, loaded.surface);
+    }
+    return std::move(loaded.surface);
 }
 
 std::vector<Light> lightsOfScene(const SceneDescription& scene, const Environment* environment,
@@ -205,6 +256,9 @@ Scene loadScene(const SceneDescription& description, const std::filesystem::path
     Surface measured = loadMeasured(description, fits);
     const bool hasResidual = !measured.residual.empty();
     scene.surface = drawnSurfaceOf(description, std::move(measured), context);
+    if (isMeshFile(description.onto)) {
+        drawMesh(context, loadMesh(description.onto), description, scene.surface);
+    }
     requireResidual(scene.surface, scene.view, description.residual);
     SceneDescription lit = description;
     resolveCaptured(lit, scene.surface.lights);

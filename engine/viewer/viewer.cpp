@@ -223,6 +223,7 @@ void ViewerWindow::takeWhatWasRead()
         pictures_.setPhotographs(nullptr);
         takeScene(done.scene->state, done.scene->scene);
         session_ = {.state = done.scene->state,
+                    .canTurn = session_.canTurn,
                     .hasResidual = session_.hasResidual,
                     .wantsScreenshot = session_.wantsScreenshot};
         applyState();
@@ -250,7 +251,7 @@ void ViewerWindow::takeWhatWasRead()
 void ViewerWindow::takeScene(const ViewState& state, const LoadedScene& scene)
 {
     const bool isOtherMaterial = scene.main != pictures_.scene().main;
-    pictures_.setScene(scene);
+    pictures_.setScene(scene, state);
     if (isOtherMaterial && !scene.main->surface.materials.empty()) {
         ballMaterial_ = mostFrequentMaterial(scene.main->surface);
         directBall_.setSurface(
@@ -259,6 +260,7 @@ void ViewerWindow::takeScene(const ViewState& state, const LoadedScene& scene)
     }
     input_.settle();
     session_.hasPhotographs = loads_.photographs() != nullptr && state.onto.empty() && !state.surface.empty();
+    session_.canTurn = scene.main->mesh != nullptr;
     session_.hasResidual = hasResidualFrom(scene.main->surface, view_);
 }
 
@@ -453,7 +455,7 @@ void viewHeadless(const Context& context, ViewState state, const Choices& choice
         source.photographs->load([](float) {}, false);
         pictures.setPhotographs(source.photographs.get());
     }
-    pictures.setScene(loadScene(source, state, choices, {}, {}));
+    pictures.setScene(loadScene(source, state, choices, {}, {}), state);
     const glm::vec3 view = viewDirectionOf(state);
     requireResidual(pictures.scene().main->surface, view, state.residual);
     pictures.apply(state, view, choices.captured);
