@@ -81,6 +81,16 @@ Surface loadMeasured(const SceneDescription& scene, const std::filesystem::path&
     return surface;
 }
 
+MeshViewOptions meshOptionsOf(const SceneDescription& scene)
+{
+    MeshViewOptions options{.turn = scene.turn};
+    if (scene.size) {
+        options.width = scene.size->width;
+        options.height = scene.size->height;
+    }
+    return options;
+}
+
 void requireMaterial(const Surface& measured, const fs::path& file)
 {
     if (measured.materials.empty()) {
@@ -204,14 +214,16 @@ LoadedSurface loadSurfaceOrMesh(const SceneDescription& scene, const fs::path& f
     return loaded;
 }
 
-void drawMesh(const Context& context, const Mesh& mesh, const SceneDescription& scene, Surface& surface)
+std::unique_ptr<MeshRaster> meshRasterFor(const Context& context, std::shared_ptr<const Mesh> mesh,
+                                          const SceneDescription& scene)
 {
-    MeshViewOptions options{.turn = scene.turn};
-    if (scene.size) {
-        options.width = scene.size->width;
-        options.height = scene.size->height;
-    }
-    Surface seen = rasterisedMesh(context, mesh, fittedView(mesh, options));
+    const MeshViewOptions options = meshOptionsOf(scene);
+    return std::make_unique<MeshRaster>(context, std::move(mesh), options.width, options.height);
+}
+
+void drawMesh(MeshRaster& raster, const SceneDescription& scene, Surface& surface)
+{
+    Surface seen = raster.draw(fittedView(*raster.mesh(), meshOptionsOf(scene)));
     surface.labels.assign(seen.labels.size(), Surface::kNoMaterial);
     for (size_t i = 0; i < seen.labels.size(); ++i) {
         surface.labels[i] = seen.normals.confidence[i] > 0 ? 0 : Surface::kNoMaterial;
@@ -228,7 +240,7 @@ Surface loadDrawnSurface(const SceneDescription& scene, const std::filesystem::p
 {
     LoadedSurface loaded = loadSurfaceOrMesh(scene, fits, context);
     if (loaded.mesh) {
-        drawMesh(context, *loaded.mesh, scene, loaded.surface);
+        drawMesh(*meshRasterFor(context, loaded.mesh, scene), scene, loaded.surface);
     }
     return std::move(loaded.surface);
 }
@@ -257,7 +269,8 @@ Scene loadScene(const SceneDescription& description, const std::filesystem::path
     const bool hasResidual = !measured.residual.empty();
     scene.surface = drawnSurfaceOf(description, std::move(measured), context);
     if (isMeshFile(description.onto)) {
-        drawMesh(context, loadMesh(description.onto), description, scene.surface);
+        const auto mesh = std::make_shared<const Mesh>(loadMesh(description.onto));
+        drawMesh(*meshRasterFor(context, mesh, description), description, scene.surface);
     }
     requireResidual(scene.surface, scene.view, description.residual);
     SceneDescription lit = description;

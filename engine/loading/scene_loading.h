@@ -8,7 +8,7 @@
 #include "engine/lights/light.h"
 #include "engine/scene/scene.h"
 #include "engine/scene/scene_description.h"
-#include "engine/target/mesh.h"
+#include "engine/target/mesh_raster.h"
 
 namespace nacre {
 
@@ -42,7 +42,11 @@ LoadedSurface loadSurfaceOrMesh(const SceneDescription& scene, const std::filesy
 
 // The surface's pixels: normals, heights and, of its first material, labels of the mesh at the scene's turn and size;
 // with horizons where it is to cast shadows. Throws Error.
-void drawMesh(const Context& context, const Mesh& mesh, const SceneDescription& scene, Surface& surface);
+void drawMesh(MeshRaster& raster, const SceneDescription& scene, Surface& surface);
+
+// For drawMesh: in the scene's size.
+std::unique_ptr<MeshRaster> meshRasterFor(const Context& context, std::shared_ptr<const Mesh> mesh,
+                                          const SceneDescription& scene);
 
 // The surface, or its material or the named one on other normals, fitted into the size; with the captured lights of the
 // measured one. `fits`: the folder of fitted models, or empty (fitsFolderFrom).

@@ -62,6 +62,14 @@ std::string describeComparison(const Image& photograph, const Frame& render, con
                        radiancePsnr(photograph, render, mask, peak), ratio);
 }
 
+void drawOnMesh(const Context& context, DrawnSurface& drawn, const ViewState& state)
+{
+    if (!drawn.raster) {
+        drawn.raster = meshRasterFor(context, drawn.mesh, state);
+    }
+    drawMesh(*drawn.raster, state, drawn.surface);
+}
+
 } // namespace
 
 void ViewPictures::setScene(const LoadedScene& scene, const ViewState& state)
@@ -70,7 +78,7 @@ void ViewPictures::setScene(const LoadedScene& scene, const ViewState& state)
     for (DrawnSurface* drawn : {scene.main.get(), scene.other.get()}) {
         const bool isDrawn = drawn == scene_.main.get() || drawn == scene_.other.get();
         if (drawn && drawn->mesh && !isDrawn) {
-            drawMesh(context_, *drawn->mesh, state, drawn->surface);
+            drawOnMesh(context_, *drawn, state);
         }
     }
     if (scene.main != scene_.main) {
@@ -96,7 +104,7 @@ void ViewPictures::turnTo(const ViewState& state)
                                                          {scene_.other.get(), other_.get()}};
     for (const auto& [surface, renderer] : drawn) {
         if (surface && surface->mesh) {
-            drawMesh(context_, *surface->mesh, state, surface->surface);
+            drawOnMesh(context_, *surface, state);
             renderer->setPixels(surface->surface);
         }
     }
