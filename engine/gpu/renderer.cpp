@@ -63,11 +63,42 @@ void Renderer::setSurface(Surface surface, std::vector<BallSize> sizes)
     lightsAreStale_ = true;
     radiance_.reset();
     picture_.reset();
+    materialBall_.reset();
     ballsAreStale_ = pictureIsStale_ = true;
+}
+
+void Renderer::setPixels(const Surface& pixels)
+{
+    const bool isOtherSize =
+        pixels.normals.width != surface_.normals.width || pixels.normals.height != surface_.normals.height;
+    surface_.normals = pixels.normals;
+    surface_.labels = pixels.labels;
+    surface_.height = pixels.height;
+    surface_.horizon = pixels.horizon;
+    surface_.places = pixels.places;
+    surface_.camera = pixels.camera;
+    pixels_.reset();
+    exposurePixels_.reset();
+    directFrame_.reset();
+    exposureFrame_.reset();
+    radiance_.reset();
+    if (isOtherSize) {
+        ballFrame_.reset();
+        picture_.reset();
+    }
+    pictureIsStale_ = true;
+}
+
+void Renderer::materialBallHasChanged()
+{
+    if (materialBall_) {
+        materialBall_->isStale = true;
+    }
 }
 
 void Renderer::lightsHaveChanged()
 {
+    materialBallHasChanged();
     lightsAreStale_ = true;
     radiance_.reset();
     pictureIsStale_ = pictureIsStale_ || dependsOnLights(show_);
@@ -132,8 +163,11 @@ void Renderer::setPath(RenderPath path)
 
 void Renderer::setDisplay(const Display& display)
 {
-    pictureIsStale_ = pictureIsStale_ || (!(display == display_) && dependsOnDisplay(show_));
-    display_ = display;
+    if (!(display == display_)) {
+        pictureIsStale_ = pictureIsStale_ || dependsOnDisplay(show_);
+        display_ = display;
+        materialBallHasChanged();
+    }
 }
 
 void Renderer::setShow(Show show)
@@ -237,9 +271,8 @@ void Renderer::uploadLights()
     }
 }
 
-void Renderer::drawInto(const std::function<void(VkCommandBuffer)>& record)
+void Renderer::drawInto(const Texture& codes, const std::function<void(VkCommandBuffer)>& record)
 {
-    const Texture& codes = target().texture;
     context_.run([&](VkCommandBuffer commands) {
         imageBarrier(commands, codes.image(), kDiscarded, kDrawnTo);
         record(commands);
@@ -252,8 +285,8 @@ void Renderer::drawDirectPicture()
     const DirectFrame::Look look{display_, show_ == Show::coverage};
     const PixelTextures& from = pixels();
     const DirectFrame::Inputs lit = inputs(1);
-    drawInto(
-        [&](VkCommandBuffer commands) { directFrame_.recordPicture(commands, from, lit, look, picture_->texture); });
+    const Texture& codes = target().texture;
+    drawInto(codes, [&](VkCommandBuffer commands) { directFrame_.recordPicture(commands, from, lit, look, codes); });
 }
 
 void Renderer::drawFalseColours()
@@ -263,8 +296,9 @@ void Renderer::drawFalseColours()
     const std::array inputs = {textureInput(kBindingNormals, nearest_, from.normals),
                                textureInput(kBindingAlbedo, nearest_, albedoOrAny(from))};
     const Pipeline& pipeline = falseColours_.with({!plain_, static_cast<int>(show_)});
-    drawInto([&](VkCommandBuffer commands) {
-        beginRendering(commands, picture_->texture, Load::clear);
+    const Texture& codes = target().texture;
+    drawInto(codes, [&](VkCommandBuffer commands) {
+        beginRendering(commands, codes, Load::clear);
         draw(context_, commands, pipeline, inputs, bytesOf(constants));
         vkCmdEndRendering(commands);
     });
@@ -297,7 +331,45 @@ void Renderer::drawBallPicture()
                                 .toneCurve = display_.toneCurve,
                                 .residual = residualPass_,
                                 .residualFours = hasResidual() ? from.residualFours : 0};
-    drawInto([&](VkCommandBuffer commands) { ballFrame_.record(commands, from, lit, picture_->texture); });
+    const Texture& codes = target().texture;
+    drawInto(codes, [&](VkCommandBuffer commands) { ballFrame_.record(commands, from, lit, codes); });
+}
+
+void Renderer::makeMaterialBall(size_t material, int size)
+{
+    Surface ball = transferredSurface(sphereNormalMap(size), {});
+    if (!plain_) {
+        for (uint8_t& label : ball.labels) {
+            label = label == Surface::kNoMaterial ? label : static_cast<uint8_t>(material);
+        }
+    }
+    const auto side = static_cast<uint32_t>(size);
+    materialBall_.emplace(MaterialBall{material, size, uploadPixels(context_, ball, plain_, Precision::compact),
+                                       BallFrame(context_), makeTarget(context_, {side, side, 1}, kCodeFormat)});
+}
+
+const Texture* Renderer::drawMaterialBall(size_t material, int size)
+{
+    if (pathTaken() != RenderPath::ball || (residual_ == ResidualUse::alone && hasResidual())) {
+        return nullptr;
+    }
+    if (!materialBall_ || materialBall_->material != material || materialBall_->size != size) {
+        makeMaterialBall(material, size);
+    }
+    if (!materialBall_->isStale) {
+        return &materialBall_->texture;
+    }
+    updateBalls();
+    const BallFrame::Inputs lit{.balls = balls_,
+                                .materials = static_cast<int>(tables_.size()),
+                                .toneCurve = display_.toneCurve,
+                                .residual = residualPass_,
+                                .residualFours = 0};
+    materialBall_->isStale = false;
+    drawInto(materialBall_->texture, [&](VkCommandBuffer commands) {
+        materialBall_->frame.record(commands, materialBall_->pixels, lit, materialBall_->texture);
+    });
+    return &materialBall_->texture;
 }
 
 void Renderer::drawPicture()

@@ -23,6 +23,8 @@ public:
 
     // `sizes`: measuredBallSize of each material, where they are known already; they take a while to measure.
     void setSurface(Surface surface, std::vector<BallSize> sizes = {});
+    // Other pixels of the same materials, without albedo factors and layers as the surface is: balls stay.
+    void setPixels(const Surface& pixels);
     void setLights(std::span<const Light> lights);
     void setView(const glm::vec3& view); // unit, towards the viewer
     void setPath(RenderPath path);
@@ -40,6 +42,9 @@ public:
     void drawPicture();
     // What it has drawn: codes, to be copied from (kCopiedFrom).
     const Texture& drawnPicture() const { return picture_->texture; }
+    // A ball of one of the materials under the lights of the picture, `size` pixels across, from the balls that the
+    // picture is drawn from: one lookup a pixel. Null where pictures are drawn directly, or of a residual layer alone.
+    const Texture* drawMaterialBall(size_t material, int size);
     // The part of it that does not depend on the pixels; nothing on the direct path.
     void updateBalls();
     // Draws the next picture again though nothing changed: for measurement.
@@ -67,18 +72,28 @@ private:
         Texture texture; // kCodeFormat
         Buffer readback;
     };
+    struct MaterialBall {
+        size_t material;
+        int size;
+        PixelTextures pixels; // with labels where those of the surface have them
+        BallFrame frame;
+        Texture texture;
+        bool isStale = true;
+    };
 
     const PixelTextures& pixels();
+    void makeMaterialBall(size_t material, int size);
     Target& target();
     void uploadLights();
     void placePixels();
     void lightsHaveChanged();
+    void materialBallHasChanged();
     bool hasResidual() const;
     bool ballsAreCodes() const;
     // With the weights of the frame's lights, `gain` times, uploaded.
     DirectFrame::Inputs inputs(float gain);
-    // Draws into the picture's target, from black.
-    void drawInto(const std::function<void(VkCommandBuffer)>& record);
+    // Draws codes, from black.
+    void drawInto(const Texture& codes, const std::function<void(VkCommandBuffer)>& record);
     void drawDirectPicture();
     void drawBallPicture();
     void drawFalseColours();
@@ -114,6 +129,7 @@ private:
     bool pictureIsStale_ = true;
     std::optional<Frame> radiance_; // where it is not stale
     std::optional<Target> picture_;
+    std::optional<MaterialBall> materialBall_;
     size_t drawnPictures_ = 0;
 };
 

@@ -19,6 +19,7 @@
 #include "engine/surface/height_from_normals.h"
 #include "engine/surface/object_places.h"
 #include "engine/target/mesh_file.h"
+#include "engine/target/mesh_raster.h"
 
 namespace nacre {
 namespace fs = std::filesystem;
@@ -57,7 +58,7 @@ constexpr int kMostEnvironmentLights = 100000;
 Surface surfaceOnto(const SceneDescription& scene, const Material& material)
 {
     const std::filesystem::path& onto = scene.onto;
-    if (onto.string().rfind("make:", 0) == 0 || isMeshFile(onto)) {
+    if (onto.string().rfind("make:", 0) == 0) {
         throw Error(onto, "is no normal map yet",
                     fmt::format("T.nacre of nacre target {} -o T.nacre, or nacre transfer", onto.string()),
                     Error::kUsage);
@@ -81,14 +82,36 @@ Surface loadMeasured(const SceneDescription& scene, const std::filesystem::path&
     return surface;
 }
 
+MeshViewOptions meshOptionsOf(const SceneDescription& scene)
+{
+    MeshViewOptions options{.turn = scene.turn};
+    if (scene.size) {
+        options.width = scene.size->width;
+        options.height = scene.size->height;
+    }
+    return options;
+}
+
+void requireMaterial(const Surface& measured, const fs::path& file)
+{
+    if (measured.materials.empty()) {
+        throw Error(file, "holds no material", "one to put onto other normals");
+    }
+}
+
 // The measured one, or its first material on other normals; fitted into the size where given.
 Surface drawnSurfaceOf(const SceneDescription& scene, Surface measured, const Context& context)
 {
     std::vector<CapturedLight> captured = measured.lights;
+    if (isMeshFile(scene.onto)) {
+        requireMaterial(measured, scene.surface);
+        Surface dressed;
+        dressed.materials = {std::move(measured.materials.front())};
+        dressed.lights = std::move(captured);
+        return dressed;
+    }
     if (!scene.onto.empty()) {
-        if (measured.materials.empty()) {
-            throw Error(scene.surface, "holds no material", "one to put onto other normals");
-        }
+        requireMaterial(measured, scene.surface);
         measured = surfaceOnto(scene, measured.materials.front());
     } else if (measured.materials.empty()) {
         throw Error(scene.surface, "is a target without a material",
@@ -158,6 +181,10 @@ void requireConsistent(const SceneDescription& scene)
     if (scene.normalY && scene.onto.empty()) {
         throw Error("", "normal-y has nothing to turn", "other normals to put the material onto", Error::kUsage);
     }
+    if (scene.turn != Turn() && !isMeshFile(scene.onto)) {
+        throw Error(scene.onto.empty() ? scene.surface : scene.onto, "cannot be turned",
+                    "a mesh to put the material onto (.obj, .ply, .gltf, .glb, .stl)", Error::kUsage);
+    }
 }
 
 void castShadows(Surface& surface, const std::filesystem::path& source)
@@ -178,9 +205,45 @@ void castShadows(Surface& surface, const std::filesystem::path& source)
     surface.horizon = horizonMap(surface.normals, heightInPicture(surface));
 }
 
+LoadedSurface loadSurfaceOrMesh(const SceneDescription& scene, const fs::path& fits, const Context& context)
+{
+    LoadedSurface loaded;
+    if (isMeshFile(scene.onto)) {
+        loaded.mesh = std::make_shared<const Mesh>(loadMesh(scene.onto));
+    }
+    loaded.surface = drawnSurfaceOf(scene, loadMeasured(scene, fits), context);
+    return loaded;
+}
+
+std::unique_ptr<MeshRaster> meshRasterFor(const Context& context, std::shared_ptr<const Mesh> mesh,
+                                          const SceneDescription& scene)
+{
+    const MeshViewOptions options = meshOptionsOf(scene);
+    return std::make_unique<MeshRaster>(context, std::move(mesh), options.width, options.height);
+}
+
+void drawMesh(MeshRaster& raster, const SceneDescription& scene, Surface& surface)
+{
+    Surface seen = raster.draw(fittedView(*raster.mesh(), meshOptionsOf(scene)));
+    surface.labels.assign(seen.labels.size(), Surface::kNoMaterial);
+    for (size_t i = 0; i < seen.labels.size(); ++i) {
+        surface.labels[i] = seen.normals.confidence[i] > 0 ? 0 : Surface::kNoMaterial;
+    }
+    surface.normals = std::move(seen.normals);
+    surface.height = std::move(seen.height);
+    surface.horizon = {};
+    if (scene.shadows.value_or(false)) {
+        castShadows(surface, scene.onto);
+    }
+}
+
 Surface loadDrawnSurface(const SceneDescription& scene, const std::filesystem::path& fits, const Context& context)
 {
-    return drawnSurfaceOf(scene, loadMeasured(scene, fits), context);
+    LoadedSurface loaded = loadSurfaceOrMesh(scene, fits, context);
+    if (loaded.mesh) {
+        drawMesh(*meshRasterFor(context, loaded.mesh, scene), scene, loaded.surface);
+    }
+    return std::move(loaded.surface);
 }
 
 std::vector<Light> lightsOfScene(const SceneDescription& scene, const Environment* environment,
@@ -206,6 +269,10 @@ Scene loadScene(const SceneDescription& description, const std::filesystem::path
     Surface measured = loadMeasured(description, fits);
     const bool hasResidual = !measured.residual.empty();
     scene.surface = drawnSurfaceOf(description, std::move(measured), context);
+    if (isMeshFile(description.onto)) {
+        const auto mesh = std::make_shared<const Mesh>(loadMesh(description.onto));
+        drawMesh(*meshRasterFor(context, mesh, description), description, scene.surface);
+    }
     requireResidual(scene.surface, scene.view, description.residual);
     SceneDescription lit = description;
     resolveCaptured(lit, scene.surface.lights);

@@ -1,4 +1,5 @@
 #pragma once
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -7,6 +8,7 @@
 #include "engine/lights/light.h"
 #include "engine/scene/scene.h"
 #include "engine/scene/scene_description.h"
+#include "engine/target/mesh_raster.h"
 
 namespace nacre {
 
@@ -27,6 +29,24 @@ void requireConsistent(const SceneDescription& scene);
 // Bakes the horizon of the height of a surface that was read from `source`. A captured surface has none: its normals
 // are integrated, and stderr says so. Throws Error (usage) for a bare normal map.
 void castShadows(Surface& surface, const std::filesystem::path& source);
+
+// A surface to draw. Of one on a mesh the pixels are to be drawn by drawMesh, at any turn.
+struct LoadedSurface {
+    Surface surface;
+    std::shared_ptr<const Mesh> mesh; // null: the surface has its pixels
+};
+
+// As loadDrawnSurface, without using the device.
+LoadedSurface loadSurfaceOrMesh(const SceneDescription& scene, const std::filesystem::path& fits,
+                                const Context& context);
+
+// The surface's pixels: normals, heights and, of its first material, labels of the mesh at the scene's turn and size;
+// with horizons where it is to cast shadows. Throws Error.
+void drawMesh(MeshRaster& raster, const SceneDescription& scene, Surface& surface);
+
+// For drawMesh: in the scene's size.
+std::unique_ptr<MeshRaster> meshRasterFor(const Context& context, std::shared_ptr<const Mesh> mesh,
+                                          const SceneDescription& scene);
 
 // The surface, or its material or the named one on other normals, fitted into the size; with the captured lights of the
 // measured one. `fits`: the folder of fitted models, or empty (fitsFolderFrom).

@@ -40,7 +40,8 @@ Image hatchedPicture(const Scene& scene, const Display& display, int threads)
     const PixelLights lights(surface, scene.lights, scene.view);
     Image picture = displayedImage(renderReference(scene, threads), display);
     for (size_t pixel = 0; pixel < picture.pixelCount(); ++pixel) {
-        if (isShown(scene, pixel) && known[surface.labels[pixel]] && certaintyOf(surface, pixel, lights).isUncertain) {
+        if (isShaded(surface, pixel) && glm::dot(surface.normals.normals[pixel], lights.view(pixel)) > 0 &&
+            known[surface.labels[pixel]] && certaintyOf(surface, pixel, lights).isUncertain) {
             const auto x = static_cast<int>(pixel % picture.width), y = static_cast<int>(pixel / picture.width);
             picture.setRgb(x, y, rounded(hatched(picture.rgb(x, y), {x, y})));
         }

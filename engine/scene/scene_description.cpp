@@ -25,6 +25,7 @@ template <class Scene, class Visitor> void visitScene(Scene& scene, Visitor&& vi
     visit("surface", scene.surface, unsaid.surface);
     visit("material", scene.material, unsaid.material);
     visit("onto", scene.onto, unsaid.onto);
+    visit("turn", scene.turn, unsaid.turn);
     visit("normal-y", scene.normalY, unsaid.normalY);
     visit("size", scene.size, unsaid.size);
     visit("light", scene.lights, unsaid.lights);
@@ -78,6 +79,7 @@ public:
     {
         value = sizeFromArgument("size", json.get<std::string>());
     }
+    void read(const SceneJson& json, Turn& value) const { value = turnFromText(json.get<std::string>()); }
     void read(const SceneJson& json, glm::vec3& value) const { value = viewFromText(json.get<std::string>()); }
     void read(const SceneJson& json, glm::vec2& value) const
     {
@@ -102,6 +104,7 @@ public:
     SceneJson written(bool value) const { return value; }
     SceneJson written(const LightSource& value) const { return textOf(value); }
     SceneJson written(const PictureSize& value) const { return fmt::format("{}x{}", value.width, value.height); }
+    SceneJson written(const Turn& value) const { return textOf(value); }
     SceneJson written(const glm::vec3& value) const { return fmt::format("{},{},{}", value.x, value.y, value.z); }
     SceneJson written(const glm::vec2& value) const { return SceneJson::array({value.x, value.y}); }
     template <class T>

@@ -9,6 +9,7 @@
 #include "engine/scene/false_colour.h"
 #include "engine/scene/light_source.h"
 #include "engine/scene/picture_size.h"
+#include "engine/scene/turn.h"
 #include "engine/surface/normal_map.h"
 #include "engine/surface/residual_layer.h"
 
@@ -32,7 +33,8 @@ struct Wipe {
 struct SceneDescription {
     std::filesystem::path surface; // or
     std::string material;          // the specification of another, on `onto`
-    std::filesystem::path onto;    // other normals
+    std::filesystem::path onto;    // other normals, or a mesh
+    Turn turn;                     // of the mesh
     std::optional<NormalY> normalY;
     std::optional<PictureSize> size; // that the surface is fitted into
     std::optional<bool> shadows;     // cast by the surface's height

@@ -14,6 +14,7 @@ namespace nacre {
 namespace {
 
 constexpr double kMargin = 0.04; // of the picture's side, left free at either end
+constexpr double kRoom = 1 - 2 * kMargin;
 
 glm::dmat3 turnOf(const MeshViewOptions& options)
 {
@@ -29,6 +30,22 @@ glm::dmat3 turnOf(const MeshViewOptions& options)
     }
     const glm::dvec3 z = glm::normalize(from), x = glm::normalize(right);
     return glm::transpose(glm::dmat3(x, glm::cross(z, x), z)); // rows are the camera's axes
+}
+
+MeshView turnedView(const Mesh& mesh, MeshView view, const Turn& turn)
+{
+    const glm::dmat3 matrix = matrixOf(turn);
+    view.turn = matrix * view.turn;
+    view.centre = matrix * view.centre;
+    glm::dvec3 reach(0);
+    for (const uint32_t index : mesh.indices) {
+        reach = glm::max(reach, glm::abs(view.turn * glm::dvec3(mesh.positions[index]) - view.centre));
+    }
+    const glm::dvec2 fitting = kRoom * 0.5 * glm::dvec2(view.width, view.height) / glm::max(glm::dvec2(reach), 1e-30);
+    view.pixelsPerUnit = std::min({view.pixelsPerUnit, fitting.x, fitting.y});
+    view.nearest = view.pixelsPerUnit * reach.z;
+    view.farthest = -view.nearest;
+    return view;
 }
 
 } // namespace
@@ -48,11 +65,10 @@ MeshView fittedView(const Mesh& mesh, const MeshViewOptions& options)
         throw Error("", "the mesh is seen edge-on: nothing of it shows", "another direction to look from");
     }
     view.centre = 0.5 * (lowest + highest);
-    const double room = 1 - 2 * kMargin;
-    view.pixelsPerUnit = room * std::min(options.width / extent.x, options.height / extent.y);
+    view.pixelsPerUnit = kRoom * std::min(options.width / extent.x, options.height / extent.y);
     view.nearest = 0.5 * view.pixelsPerUnit * extent.z;
     view.farthest = -view.nearest;
-    return view;
+    return options.turn == Turn() ? view : turnedView(mesh, view, options.turn);
 }
 
 } // namespace nacre

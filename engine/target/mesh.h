@@ -9,6 +9,7 @@
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
+#include "engine/scene/turn.h"
 #include "engine/surface/normal_map.h"
 
 namespace nacre {
@@ -43,9 +44,11 @@ struct MeshViewOptions {
     glm::vec3 up{0, 1, 0};   // what is up in the picture; not along `from`
     int width = 1024;        // pixels
     int height = 1024;
+    Turn turn{}; // of the mesh before that camera
 };
 
-// A distant camera that sees all of a mesh, fitted into the picture.
+// A distant camera that sees all of a mesh, fitted into the picture. A turned one stays where its middle was, as large
+// as it was unless it would not fit.
 struct MeshView {
     int width = 0;
     int height = 0;

@@ -123,17 +123,23 @@ Texture uploadNormalMap(const Context& context, const NormalMap& map)
     return uploadTexture(context, VK_IMAGE_TYPE_2D, extent, kFloatFormat, texels);
 }
 
+} // namespace
+
 // One target and what is drawn to it.
-class MeshRaster {
+class MeshRaster::Passes {
 public:
-    MeshRaster(const Context& context, const Mesh& mesh, const MeshView& view, int samplesPerSide)
-        : context_(context), mesh_(mesh), view_(view),
-          samplesPerSide_(samplesPerSide), extent_{static_cast<uint32_t>(view.width * samplesPerSide),
-                                                   static_cast<uint32_t>(view.height * samplesPerSide), 1},
+    Passes(const Context& context, const Mesh& mesh, int width, int height, int samplesPerSide)
+        : context_(context), mesh_(mesh),
+          samplesPerSide_(samplesPerSide), extent_{static_cast<uint32_t>(width * samplesPerSide),
+                                                   static_cast<uint32_t>(height * samplesPerSide), 1},
           target_(makeTarget(context, extent_, kFloatFormat)),
           depth_(context,
                  {.extent = extent_, .format = kDepthFormat, .usage = VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT}),
-          vertices_(context, kTrianglesPerUpload * 3 * sizeof(MeshVertex), VK_BUFFER_USAGE_VERTEX_BUFFER_BIT),
+          vertices_(context,
+                    3 * std::min(std::max<size_t>(mesh.triangleCount(), 1), kTrianglesPerUpload) * sizeof(MeshVertex),
+                    VK_BUFFER_USAGE_VERTEX_BUFFER_BIT),
+          samples_(context, VkDeviceSize{extent_.width} * extent_.height * sizeof(glm::vec4),
+                   VK_BUFFER_USAGE_TRANSFER_DST_BIT),
           nearest_(makeSampler(context, VK_FILTER_NEAREST)), noMap_(uploadNormalMap(context, NormalMap(1, 1))),
 
           pipelines_(context, {.fragmentShader = mesh_view_frag,
@@ -144,8 +150,11 @@ public:
     {
     }
 
-    void drawParts()
+    void drawParts(const MeshView& view)
     {
+        view_ = view;
+        maps_.clear(); // they are made for the size at which they are seen
+        isEmpty_ = true;
         for (size_t part = 0; part < mesh_.parts.size(); ++part) {
             const MeshPart& drawn = mesh_.parts[part];
             const Texture* map = normalMapOf(drawn);
@@ -162,19 +171,19 @@ public:
     }
 
     // x, y of the normal, height, label + 1 (0 = nothing) of each sample.
-    Buffer read()
+    const glm::vec4* read()
     {
-        const size_t samples = static_cast<size_t>(extent_.width) * extent_.height;
-        Buffer buffer(context_, samples * sizeof(glm::vec4), VK_BUFFER_USAGE_TRANSFER_DST_BIT);
         context_.run([&](VkCommandBuffer commands) {
             imageBarrier(commands, target_.image(), kDrawnTo, kCopiedFrom);
             const VkBufferImageCopy copy{.imageSubresource = {.aspectMask = VK_IMAGE_ASPECT_COLOR_BIT, .layerCount = 1},
                                          .imageExtent = extent_};
-            vkCmdCopyImageToBuffer(commands, target_.image(), kCopiedFrom.layout, buffer.get(), 1, &copy);
-            makeVisibleToHost(commands, buffer);
+            vkCmdCopyImageToBuffer(commands, target_.image(), kCopiedFrom.layout, samples_.get(), 1, &copy);
+            makeVisibleToHost(commands, samples_);
         });
-        return buffer;
+        return static_cast<const glm::vec4*>(samples_.mapped());
     }
+
+    int samplesPerSide() const { return samplesPerSide_; }
 
 private:
     // Null: the part has none. Maps of several parts are uploaded once, at the size at which they are seen.
@@ -271,12 +280,13 @@ private:
 
     const Context& context_;
     const Mesh& mesh_;
-    const MeshView& view_;
+    MeshView view_;
     int samplesPerSide_;
     VkExtent3D extent_;
     Texture target_;
     Texture depth_;
     Buffer vertices_;
+    Buffer samples_; // read back
     Sampler nearest_;
     Texture noMap_;       // the shader has a place for one
     Pipelines pipelines_; // without and with a normal map
@@ -284,10 +294,12 @@ private:
     bool isEmpty_ = true;
 };
 
-int samplesPerSideFor(const Context& context, const MeshView& view)
+namespace {
+
+int samplesPerSideFor(const Context& context, int width, int height)
 {
-    const VkDeviceSize bytes = VkDeviceSize{4} * view.width * view.height * sizeof(glm::vec4);
-    const uint32_t side = 2 * static_cast<uint32_t>(std::max(view.width, view.height));
+    const VkDeviceSize bytes = VkDeviceSize{4} * width * height * sizeof(glm::vec4);
+    const uint32_t side = 2 * static_cast<uint32_t>(std::max(width, height));
     const bool fits = side <= context.limits().maxImageDimension2D &&
                       side <= context.limits().maxViewportDimensions[0] &&
                       bytes <= std::min(kLargestTarget, context.largestAllocation());
@@ -296,21 +308,31 @@ int samplesPerSideFor(const Context& context, const MeshView& view)
 
 } // namespace
 
-Surface rasterisedMesh(const Context& context, const Mesh& mesh, const MeshView& view)
+MeshRaster::MeshRaster(const Context& context, std::shared_ptr<const Mesh> mesh, int width, int height)
+    : mesh_(std::move(mesh))
 {
-    requirePictureSize(context, view.width, view.height);
-    const int samplesPerSide = samplesPerSideFor(context, view);
-    MeshRaster raster(context, mesh, view, samplesPerSide);
-    raster.drawParts();
-    const Buffer samples = raster.read();
-    Surface surface =
-        resolvedSurface(static_cast<const glm::vec4*>(samples.mapped()), view.width, view.height, samplesPerSide);
-    for (const MeshPart& part : mesh.parts) {
+    requirePictureSize(context, width, height);
+    passes_ = std::make_unique<Passes>(context, *mesh_, width, height, samplesPerSideFor(context, width, height));
+}
+
+MeshRaster::~MeshRaster() = default;
+
+Surface MeshRaster::draw(const MeshView& view)
+{
+    passes_->drawParts(view);
+    Surface surface = resolvedSurface(passes_->read(), view.width, view.height, passes_->samplesPerSide());
+    for (const MeshPart& part : mesh_->parts) {
         if (surface.parts.size() < Surface::kNoMaterial) {
             surface.parts.push_back(part.name);
         }
     }
     return surface;
+}
+
+Surface rasterisedMesh(const Context& context, const Mesh& mesh, const MeshView& view)
+{
+    const std::shared_ptr<const Mesh> borrowed(std::shared_ptr<const Mesh>(), &mesh);
+    return MeshRaster(context, borrowed, view.width, view.height).draw(view);
 }
 
 } // namespace nacre

@@ -1,4 +1,6 @@
 #pragma once
+#include <memory>
+
 #include "engine/gpu/context.h"
 #include "engine/surface/surface.h"
 #include "engine/target/mesh.h"
@@ -10,5 +12,20 @@ namespace nacre {
 // device has room for them: of those on its nearest surface. Triangles are uploaded piece by piece.
 // Throws Error where the picture is beyond the device's limits.
 Surface rasterisedMesh(const Context& context, const Mesh& mesh, const MeshView& view);
+
+// The same of one mesh again and again, in pictures of one size: what the device holds for it stays.
+class MeshRaster {
+public:
+    MeshRaster(const Context& context, std::shared_ptr<const Mesh> mesh, int width, int height);
+    ~MeshRaster();
+
+    const std::shared_ptr<const Mesh>& mesh() const { return mesh_; }
+    Surface draw(const MeshView& view); // of that size
+
+private:
+    class Passes;
+    std::shared_ptr<const Mesh> mesh_;
+    std::unique_ptr<Passes> passes_;
+};
 
 } // namespace nacre

@@ -104,6 +104,16 @@ void toggleWipe(Session& session, const Choices& choices)
     }
 }
 
+void stepTarget(Session& session, const Choices& choices)
+{
+    const size_t count = choices.targets.size();
+    if (count < 2) {
+        session.message = "there is one shape: drop another one";
+    } else {
+        chooseTarget(session, choices, (chosenTarget(session.state, choices).value_or(count - 1) + 1) % count);
+    }
+}
+
 // Actions that a key which is held goes on with; the others would flicker.
 bool steps(Action action)
 {
@@ -135,6 +145,8 @@ void act(Session& session, const Choices& choices, Action action, size_t number)
     case Action::material:
         chooseMaterial(session, choices, number);
         return;
+    case Action::target:
+        return stepTarget(session, choices);
     case Action::brighter:
         return changeExposure(session, kExposureStep);
     case Action::darker:
@@ -195,6 +207,7 @@ void chooseTarget(Session& session, const Choices& choices, size_t target)
     if (target < choices.targets.size()) {
         const size_t material = chosenMaterial(session.state, choices).value_or(0);
         session.state = withChoice(session.state, choices, material, target);
+        session.state.turn = {};
         leavePhotograph(session);
     }
 }
@@ -261,6 +274,17 @@ void pushLight(Session& session, float steps)
     const float distance = std::min(light.distance, kFarthestChosen * kDistanceStep) * std::pow(kDistanceStep, steps);
     light.captured = 0;
     light.distance = distance > kFarthestChosen * 1.001f ? LightSource().distance : std::max(distance, nearest);
+}
+
+void turnObject(Session& session, const glm::vec2& moved)
+{
+    if (!session.canTurn) {
+        session.message = "this shape has no mesh: only meshes (.obj, .ply, .gltf, .glb, .stl) can be turned";
+        return;
+    }
+    Turn& turn = session.state.turn;
+    turn.yaw = std::remainder(turn.yaw + kTurnOfDrag * moved.x, 360.0f);
+    turn.pitch = std::clamp(turn.pitch + kTurnOfDrag * moved.y, -90.0f, 90.0f);
 }
 
 void addLight(Session& session)

@@ -18,12 +18,14 @@ struct Session {
     Comparison comparison = Comparison::none;
     std::optional<size_t> photograph; // of the captured ones, that was stepped to
     bool hasPhotographs = false;      // pictures of the captured lights are at hand
+    bool canTurn = false;             // what is drawn lies on a mesh
     bool hasResidual = false;         // what is drawn has a residual layer, seen from the front
     std::string message;              // to the user, about what was asked for last
     bool wantsScreenshot = false;
     bool wantsToQuit = false;
 };
 
+inline constexpr float kTurnOfDrag = 0.25f;       // degrees a pixel; exact in sums, so that a way back is one
 inline constexpr float kExposureStep = 0.25f;     // stops
 inline constexpr float kSecondsAround = 8;        // of the light path
 inline constexpr float kDistanceStep = 1.189207f; // two to the fourth part of one
@@ -51,6 +53,8 @@ void dragLight(Session& session, const glm::vec2& moved, float windowHeight);
 // The wheel over the light ball: a step of 1 takes the chosen light away by kDistanceStep, steps below 0 bring it
 // nearer. Beyond kFarthestChosen it is distant.
 void pushLight(Session& session, float steps);
+// A drag by so many units of layout, y down, turns what can be turned: its front goes with the cursor.
+void turnObject(Session& session, const glm::vec2& moved);
 void addLight(Session& session);
 void removeLight(Session& session); // the chosen one, unless nothing would light the scene
 

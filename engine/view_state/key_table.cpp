@@ -10,6 +10,7 @@ constexpr std::array kBindings = {KeyBinding{'H', 'H', Held::none, Action::help}
                                   KeyBinding{'/', '/', Held::shift, Action::help}, // ? on most keyboards
                                   KeyBinding{'?', '?', Held::any, Action::help},
                                   KeyBinding{'1', '9', Held::none, Action::material},
+                                  KeyBinding{'T', 'T', Held::none, Action::target},
                                   KeyBinding{'E', 'E', Held::none, Action::brighter},
                                   KeyBinding{'E', 'E', Held::shift, Action::darker},
                                   KeyBinding{'N', 'N', Held::none, Action::normals},
@@ -31,6 +32,7 @@ constexpr std::array kBindings = {KeyBinding{'H', 'H', Held::none, Action::help}
 
 constexpr std::array kHelp = {ActionHelp{Action::help, "H or ?", "this help"},
                               ActionHelp{Action::material, "1 to 9", "material by its number in the list"},
+                              ActionHelp{Action::target, "T", "next shape in the list"},
                               ActionHelp{Action::brighter, "E", "exposure up by a quarter of a stop"},
                               ActionHelp{Action::darker, "Shift+E", "exposure down by a quarter of a stop"},
                               ActionHelp{Action::normals, "N", "normals / picture"},

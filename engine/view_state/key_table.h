@@ -7,6 +7,7 @@ namespace nacre {
 enum class Action {
     help,
     material,
+    target,
     brighter,
     darker,
     normals,

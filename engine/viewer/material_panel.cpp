@@ -64,7 +64,7 @@ void showMaterialPanel(Session& session, const PanelInputs& inputs, std::vector<
         ImGui::PopID();
     }
     if (inputs.choices.targets.size() > 1) {
-        ImGui::TextDisabled("on the shape of");
+        ImGui::TextDisabled("on the shape of (T)");
         const auto target = chosenTarget(session.state, inputs.choices);
         for (size_t i = 0; i < inputs.choices.targets.size(); ++i) {
             ImGui::PushID(static_cast<int>(i) + 1000);

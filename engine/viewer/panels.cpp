@@ -38,9 +38,13 @@ void chooseResidualShown(Session& session)
 }
 
 constexpr std::pair<const char*, const char*> kMouse[] = {
-    {"drag on the ball", "move a light"}, {"right drag", "move the chosen light, anywhere"},
-    {"drag", "move the picture"},         {"wheel", "zoom"},
-    {"double click", "fit the picture"},  {"drop a file", "surface, material, normal map, environment"}};
+    {"drag on the ball", "move a light"},
+    {"right drag", "move the chosen light, anywhere"},
+    {"drag", "move the picture"},
+    {"wheel", "zoom"},
+    {"Shift or middle drag", "turn a mesh"},
+    {"double click", "fit the picture"},
+    {"drop a file", "surface, material, normal map, environment"}};
 
 void row(const char* keys, const char* text)
 {

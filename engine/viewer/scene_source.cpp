@@ -7,10 +7,12 @@ namespace nacre {
 
 namespace {
 
-std::shared_ptr<const DrawnSurface> drawnSurface(const SceneSource& source, const ViewState& scene)
+std::shared_ptr<DrawnSurface> drawnSurface(const SceneSource& source, const ViewState& scene)
 {
     auto drawn = std::make_shared<DrawnSurface>();
-    drawn->surface = loadDrawnSurface(scene, source.fits, source.context);
+    LoadedSurface loaded = loadSurfaceOrMesh(scene, source.fits, source.context);
+    drawn->surface = std::move(loaded.surface);
+    drawn->mesh = std::move(loaded.mesh);
     for (const Material& material : drawn->surface.materials) {
         drawn->ballSizes.push_back(measuredBallSize(material.table));
     }

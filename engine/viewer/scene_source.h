@@ -6,6 +6,7 @@
 #include "engine/lights/environment.h"
 #include "engine/scene/ball_size.h"
 #include "engine/surface/surface.h"
+#include "engine/target/mesh_raster.h"
 #include "engine/view_state/choices.h"
 #include "engine/viewer/photographs.h"
 
@@ -22,12 +23,14 @@ struct SceneSource {
 struct DrawnSurface {
     Surface surface;
     std::vector<BallSize> ballSizes;
+    std::shared_ptr<const Mesh> mesh{};   // on which the surface lies, its pixels as they were drawn last; null: none
+    std::unique_ptr<MeshRaster> raster{}; // of the mesh, once it has been drawn
 };
 
 // What a state's pictures are drawn from. The wipe's other side and the environment are null where there is none.
 struct LoadedScene {
-    std::shared_ptr<const DrawnSurface> main;
-    std::shared_ptr<const DrawnSurface> other;
+    std::shared_ptr<DrawnSurface> main;
+    std::shared_ptr<DrawnSurface> other;
     std::shared_ptr<const Environment> environment;
 };
 

@@ -60,16 +60,18 @@ void SessionInput::takeMouse(const WindowEvents& events, const Window& window, c
     const bool isOver = stage.area.holds(cursor) && !session.help;
     if (drag_ != Drag::none) {
         drag(moved, stage);
-        if (!window.isHeld(drag_ == Drag::light ? 1 : 0)) {
+        if (!window.isHeld(dragButton_)) {
             drag_ = Drag::none;
         }
     } else if (isOver && events.pressed[1]) {
-        drag_ = Drag::light;
+        begin(Drag::light, 1);
         session.playing = false;
+    } else if (isOver && (events.pressed[2] || (events.pressed[0] && window.isShiftHeld()))) {
+        begin(Drag::turn, events.pressed[2] ? 2 : 0);
     } else if (isOver && events.pressed[0]) {
         const float line = screenFromPicture({stage.wipeColumn.value_or(0), 0}, framing(stage), stage.area).x;
         const bool isAtLine = stage.wipeColumn && std::abs(cursor.x - line) < kWipeReach * stage.scale;
-        drag_ = isAtLine ? Drag::wipe : Drag::pan;
+        begin(isAtLine ? Drag::wipe : Drag::pan, 0);
     }
     if (isOver && events.wheel != 0) {
         session.state.framing = zoomed(session.state.framing, events.wheel, cursor, stage.picture, stage.area);
@@ -82,6 +84,12 @@ void SessionInput::takeMouse(const WindowEvents& events, const Window& window, c
     }
 }
 
+void SessionInput::begin(Drag drag, int button)
+{
+    drag_ = drag;
+    dragButton_ = button;
+}
+
 void SessionInput::drag(const glm::vec2& moved, const Stage& stage)
 {
     if (moved == glm::vec2(0)) {
@@ -89,6 +97,8 @@ void SessionInput::drag(const glm::vec2& moved, const Stage& stage)
     }
     if (drag_ == Drag::pan) {
         session.state.framing = panned(session.state.framing, moved, stage.picture, stage.area);
+    } else if (drag_ == Drag::turn) {
+        turnObject(session, moved / stage.scale);
     } else if (drag_ == Drag::light) {
         dragLight(session, moved, stage.window.y);
     } else {

@@ -32,7 +32,7 @@ public:
     void goBackTo(const ViewState& shown);
 
 private:
-    enum class Drag { none, pan, light, wipe };
+    enum class Drag { none, pan, light, wipe, turn };
     struct Undo { // the lists and the state around a drop that is not shown yet
         Choices choices;
         ViewState before, after;
@@ -44,7 +44,10 @@ private:
     void choose(Dropped kind, const std::filesystem::path& file);
     Framing framing(const Stage& stage) const;
 
+    void begin(Drag drag, int button);
+
     Drag drag_ = Drag::none;
+    int dragButton_ = 0;
     glm::vec2 cursor_{0, 0};
     std::optional<Undo> undo_;
 };

@@ -62,10 +62,25 @@ std::string describeComparison(const Image& photograph, const Frame& render, con
                        radiancePsnr(photograph, render, mask, peak), ratio);
 }
 
+void drawOnMesh(const Context& context, DrawnSurface& drawn, const ViewState& state)
+{
+    if (!drawn.raster) {
+        drawn.raster = meshRasterFor(context, drawn.mesh, state);
+    }
+    drawMesh(*drawn.raster, state, drawn.surface);
+}
+
 } // namespace
 
-void ViewPictures::setScene(const LoadedScene& scene)
+void ViewPictures::setScene(const LoadedScene& scene, const ViewState& state)
 {
+    turnTo(state);
+    for (DrawnSurface* drawn : {scene.main.get(), scene.other.get()}) {
+        const bool isDrawn = drawn == scene_.main.get() || drawn == scene_.other.get();
+        if (drawn && drawn->mesh && !isDrawn) {
+            drawOnMesh(context_, *drawn, state);
+        }
+    }
     if (scene.main != scene_.main) {
         main_.setSurface(scene.main->surface, scene.main->ballSizes);
     }
@@ -77,6 +92,22 @@ void ViewPictures::setScene(const LoadedScene& scene)
     }
     scene_ = scene;
     verdicts_.reset();
+}
+
+void ViewPictures::turnTo(const ViewState& state)
+{
+    if (state.turn == turn_) {
+        return;
+    }
+    turn_ = state.turn;
+    const std::pair<DrawnSurface*, Renderer*> drawn[] = {{scene_.main.get(), &main_},
+                                                         {scene_.other.get(), other_.get()}};
+    for (const auto& [surface, renderer] : drawn) {
+        if (surface && surface->mesh) {
+            drawOnMesh(context_, *surface, state);
+            renderer->setPixels(surface->surface);
+        }
+    }
 }
 
 void ViewPictures::applyTo(Renderer& renderer, const ViewState& state, const glm::vec3& view) const
@@ -104,6 +135,7 @@ void ViewPictures::applyVerdicts(const ViewState& state)
 
 void ViewPictures::apply(ViewState& state, const glm::vec3& view, std::span<const CapturedLight> captured)
 {
+    turnTo(state);
     lights_ = lightsOfScene(state, scene_.environment.get(), captured);
     view_ = view;
     wipeAt_ = state.wipe.at;

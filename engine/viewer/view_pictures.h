@@ -13,8 +13,8 @@ class ViewPictures {
 public:
     explicit ViewPictures(const Context& context) : context_(context), main_(context) {}
 
-    // Uploads what differs from the last.
-    void setScene(const LoadedScene& scene);
+    // Uploads what differs from the last; meshes are drawn as the state turns them.
+    void setScene(const LoadedScene& scene, const ViewState& state);
     // Lights, exposure (automatic where the state has none, which is then written into it), what is shown.
     void apply(ViewState& state, const glm::vec3& view, std::span<const CapturedLight> captured);
 
@@ -49,6 +49,7 @@ private:
         Texture texture;
     };
 
+    void turnTo(const ViewState& state);
     void applyTo(Renderer& renderer, const ViewState& state, const glm::vec3& view) const;
     void applyVerdicts(const ViewState& state);
     bool hasWipe() const { return other_ && !verdicts_; }
@@ -57,6 +58,7 @@ private:
     Renderer main_;
     std::unique_ptr<Renderer> other_;
     LoadedScene scene_;
+    Turn turn_; // of its meshes, as they are drawn
     const Photographs* photographs_ = nullptr;
     std::optional<Verdicts> verdicts_; // in place of the renders
     std::vector<Light> lights_;

@@ -40,16 +40,15 @@ Image materialThumbnail(const Context& context, const Material& material, int si
     return renderer.picture();
 }
 
-// A ball of the surface's most frequent material, to be lit as the surface is.
-Surface ballSurface(const Surface& surface, int size)
+// The surface's most frequent material.
+size_t mostFrequentMaterial(const Surface& surface)
 {
     std::array<size_t, 256> counts{};
     for (const uint8_t label : surface.labels) {
         ++counts[label];
     }
     const auto end = counts.begin() + static_cast<std::ptrdiff_t>(surface.materials.size());
-    const auto most = static_cast<size_t>(std::max_element(counts.begin(), end) - counts.begin());
-    return transferredSurface(sphereNormalMap(size), surface.materials[most]);
+    return static_cast<size_t>(std::max_element(counts.begin(), end) - counts.begin());
 }
 
 constexpr double kMostFramesPerSecond = 60; // FIFO does not hold every driver back
@@ -59,6 +58,7 @@ constexpr float kStatusHeight = 26;
 constexpr float kBallSize = 200;
 constexpr float kThumbnailSize = 48;
 constexpr double kProgressSeconds = 0.1; // between looks at what is loading
+constexpr double kTitleSeconds = 0.25;   // between changes of the title while frames follow each other
 constexpr glm::vec3 kBackground{0.11f, 0.11f, 0.12f};
 constexpr int kFramesToSettle = 3; // ImGui takes a few
 constexpr size_t kFewLights = 16;  // of which the light ball's few pixels are drawn sooner than another ball is made
@@ -108,6 +108,8 @@ private:
     void applyState();
     void drawFrame();
     void drawPictures();
+    int ballSize() const; // pixels
+    const Texture& drawnBall();
     void placePicture(const Stage& stage);
     void describePanels(const Stage& stage);
     void showTitle(double seconds);
@@ -121,7 +123,9 @@ private:
     Swapchain swapchain_;
     UiPass ui_;
     ViewPictures pictures_;
-    Renderer ball_;
+    Renderer directBall_;           // of ballMaterial_, where the picture has no balls to draw it from
+    const Texture* ball_ = nullptr; // drawn in this frame
+    size_t ballMaterial_ = 0;       // the surface's most frequent one
     PhotographComparison comparison_;
     std::map<std::string, Texture> thumbnails_;
     std::vector<PlacedPicture> placed_;
@@ -131,7 +135,9 @@ private:
     glm::vec3 view_{0, 0, 1};
 
     int framesLeft_ = kFramesToSettle;
-    Stopwatch sinceFrame_;    // that was drawn last
+    std::string remark_;   // on the picture that was last at rest
+    Stopwatch sinceFrame_; // that was drawn last
+    Stopwatch sinceTitle_;
     double frameSeconds_ = 0; // of one, smoothed
     size_t shownFrames_ = 0;
 
@@ -141,7 +147,7 @@ private:
 ViewerWindow::ViewerWindow(const Context& context, ViewState state, Choices choices, const SceneSource& source,
                            const ViewerOptions& options)
     : context_(context), source_(source), options_(options), window_("nacre", options.width, options.height),
-      swapchain_(context, window_), ui_(context, window_, swapchain_), pictures_(context), ball_(context),
+      swapchain_(context, window_), ui_(context, window_, swapchain_), pictures_(context), directBall_(context),
       comparison_(context), input_(std::move(state), std::move(choices)), session_(input_.session),
       loads_(source, session_.state, Window::wake)
 {
@@ -217,6 +223,7 @@ void ViewerWindow::takeWhatWasRead()
         pictures_.setPhotographs(nullptr);
         takeScene(done.scene->state, done.scene->scene);
         session_ = {.state = done.scene->state,
+                    .canTurn = session_.canTurn,
                     .hasResidual = session_.hasResidual,
                     .wantsScreenshot = session_.wantsScreenshot};
         applyState();
@@ -244,13 +251,16 @@ void ViewerWindow::takeWhatWasRead()
 void ViewerWindow::takeScene(const ViewState& state, const LoadedScene& scene)
 {
     const bool isOtherMaterial = scene.main != pictures_.scene().main;
-    pictures_.setScene(scene);
+    pictures_.setScene(scene, state);
     if (isOtherMaterial && !scene.main->surface.materials.empty()) {
-        ball_.setSurface(ballSurface(scene.main->surface, static_cast<int>(kBallSize * ui_.scale())));
+        ballMaterial_ = mostFrequentMaterial(scene.main->surface);
+        directBall_.setSurface(
+            transferredSurface(sphereNormalMap(ballSize()), scene.main->surface.materials[ballMaterial_]));
         input_.pixel.reset();
     }
     input_.settle();
     session_.hasPhotographs = loads_.photographs() != nullptr && state.onto.empty() && !state.surface.empty();
+    session_.canTurn = scene.main->mesh != nullptr;
     session_.hasResidual = hasResidualFrom(scene.main->surface, view_);
 }
 
@@ -301,14 +311,29 @@ void ViewerWindow::applyState()
 {
     settleShow(session_);
     pictures_.apply(session_.state, view_, input_.choices.captured);
-    const bool isFew = pictures_.lights().size() <= kFewLights;
-    ball_.setPath(isFew ? RenderPath::direct : RenderPath::automatic);
+}
+
+int ViewerWindow::ballSize() const
+{
+    return static_cast<int>(kBallSize * ui_.scale());
+}
+
+// The ball of lights: where the picture is not drawn from balls, under distant lights, since markers lie where the ball
+// is brightest.
+const Texture& ViewerWindow::drawnBall()
+{
+    if (const Texture* ball = pictures_.renderer().drawMaterialBall(ballMaterial_, ballSize())) {
+        return *ball;
+    }
+    directBall_.setPath(pictures_.lights().size() <= kFewLights ? RenderPath::direct : RenderPath::automatic);
     std::vector<Light> distant(pictures_.lights().begin(), pictures_.lights().end());
     for (Light& light : distant) {
         light.distance = Light().distance;
     }
-    ball_.setLights(distant); // markers lie where the ball is brightest
-    ball_.setDisplay(pictures_.display());
+    directBall_.setLights(distant);
+    directBall_.setDisplay(pictures_.display());
+    directBall_.drawPicture();
+    return directBall_.drawnPicture();
 }
 
 void ViewerWindow::drawPictures()
@@ -316,7 +341,7 @@ void ViewerWindow::drawPictures()
     applyState();
     pictures_.draw();
     if (!pictures_.scene().main->surface.materials.empty()) {
-        ball_.drawPicture();
+        ball_ = &drawnBall();
         comparison_.update(session_, loads_.photographs(), pictures_);
     }
 }
@@ -340,7 +365,7 @@ void ViewerWindow::describePanels(const Stage& stage)
     const DrawnSurface* drawn = pictures_.scene().main.get();
     const PanelInputs inputs{.choices = input_.choices,
                              .thumbnails = thumbnails_,
-                             .ball = drawn->surface.materials.empty() ? nullptr : &ball_.drawnPicture(),
+                             .ball = drawn->surface.materials.empty() ? nullptr : ball_,
                              .drawn = drawn,
                              .photographs = session_.state.onto.empty() ? loads_.photographs() : nullptr,
                              .verdicts = pictures_.verdicts(),
@@ -353,8 +378,12 @@ void ViewerWindow::describePanels(const Stage& stage)
     }
     const bool isRendered = comparison_.picture() == nullptr &&
                             (session_.state.show == Show::picture || session_.state.show == Show::coverage);
-    const std::string remark = isRendered ? describeUncertainShare(pictures_.uncertainShare()) : "";
-    if (showStatus(session_, loads_.busy(), stage, remark)) {
+    if (!isRendered) {
+        remark_.clear();
+    } else if (framesLeft_ == 0 && !session_.playing) { // it takes as long as a frame: once nothing moves
+        remark_ = describeUncertainShare(pictures_.uncertainShare());
+    }
+    if (showStatus(session_, loads_.busy(), stage, remark_)) {
         const bool wasScene = loads_.readsScene();
         session_.message = fmt::format("cancelled {}", loads_.cancel());
         if (wasScene) {
@@ -396,6 +425,10 @@ void ViewerWindow::drawFrame()
 void ViewerWindow::showTitle(double seconds)
 {
     frameSeconds_ = frameSeconds_ > 0 ? 0.8 * frameSeconds_ + 0.2 * seconds : seconds;
+    if (framesLeft_ > 0 && sinceTitle_.seconds() < kTitleSeconds) {
+        return; // window managers draw it anew each time
+    }
+    sinceTitle_.lap();
     const std::filesystem::path& surface = input_.choices.surface;
     const std::string name = surface.empty() ? session_.state.material : surface.stem().string();
     window_.setTitle(
@@ -422,7 +455,7 @@ void viewHeadless(const Context& context, ViewState state, const Choices& choice
         source.photographs->load([](float) {}, false);
         pictures.setPhotographs(source.photographs.get());
     }
-    pictures.setScene(loadScene(source, state, choices, {}, {}));
+    pictures.setScene(loadScene(source, state, choices, {}, {}), state);
     const glm::vec3 view = viewDirectionOf(state);
     requireResidual(pictures.scene().main->surface, view, state.residual);
     pictures.apply(state, view, choices.captured);

@@ -14,6 +14,7 @@
 namespace nacre {
 namespace {
 
+static_assert(GLFW_MOUSE_BUTTON_LEFT == 0 && GLFW_MOUSE_BUTTON_RIGHT == 1 && GLFW_MOUSE_BUTTON_MIDDLE == 2);
 static_assert(kKeyEscape == GLFW_KEY_ESCAPE && kKeyF12 == GLFW_KEY_F12 && GLFW_KEY_A == 'A');
 
 constexpr double kDoubleClickSeconds = 0.35;
@@ -41,7 +42,7 @@ void onButton(GLFWwindow* window, int button, int action, int)
 {
     static double lastTime = -1, lastX = 0, lastY = 0;
     WindowEvents& events = eventsOf(window);
-    if (button > 1) {
+    if (button >= kButtons) {
         return;
     }
     (action == GLFW_PRESS ? events.pressed : events.released)[button] = true;
@@ -218,6 +219,12 @@ glm::vec2 Window::cursor() const
 bool Window::isHeld(int button) const
 {
     return glfwGetMouseButton(window_, button) == GLFW_PRESS;
+}
+
+bool Window::isShiftHeld() const
+{
+    return glfwGetKey(window_, GLFW_KEY_LEFT_SHIFT) == GLFW_PRESS ||
+           glfwGetKey(window_, GLFW_KEY_RIGHT_SHIFT) == GLFW_PRESS;
 }
 
 bool Window::shouldClose() const

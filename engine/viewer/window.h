@@ -13,13 +13,15 @@ struct GLFWwindow;
 
 namespace nacre {
 
+inline constexpr int kButtons = 3; // of the mouse: left, right, middle
+
 // What has happened since it was last asked for. Positions are in framebuffer pixels, y down.
 struct WindowEvents {
     std::vector<KeyPress> keys;
     std::vector<std::filesystem::path> dropped;
-    float wheel = 0;                  // steps, positive away from the user
-    bool pressed[2] = {false, false}; // left, right
-    bool released[2] = {false, false};
+    float wheel = 0;             // steps, positive away from the user
+    bool pressed[kButtons] = {}; // left, right, middle
+    bool released[kButtons] = {};
     bool doubleClicked = false; // left
     bool resized = false;
     bool any = false; // these, a cursor that moved, a window that was uncovered
@@ -41,7 +43,8 @@ public:
     glm::ivec2 framebufferSize() const; // 0 where minimised
     float contentScale() const;         // of the screen: 2 where 192 dots an inch
     glm::vec2 cursor() const;           // framebuffer pixels
-    bool isHeld(int button) const;      // 0 left, 1 right
+    bool isHeld(int button) const;      // 0 left, 1 right, 2 middle
+    bool isShiftHeld() const;
     bool shouldClose() const;
     void setTitle(const std::string& title);
 

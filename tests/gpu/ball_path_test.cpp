@@ -233,6 +233,51 @@ TEST_F(BallPathTest, FourMaterialsAt4kFitIntoTheMemory)
     std::printf("  %llu MiB on the device\n", static_cast<unsigned long long>(renderer.deviceBytes() >> 20));
 }
 
+// The codes of a texture that is to be copied from.
+Image readBack(const Context& context, const Texture& texture)
+{
+    const VkExtent3D extent = texture.extent();
+    const Buffer buffer(context, VkDeviceSize{4} * extent.width * extent.height, VK_BUFFER_USAGE_TRANSFER_DST_BIT);
+    context.run([&](VkCommandBuffer commands) {
+        VkBufferImageCopy copy{};
+        copy.imageSubresource.aspectMask = VK_IMAGE_ASPECT_COLOR_BIT;
+        copy.imageSubresource.layerCount = 1;
+        copy.imageExtent = extent;
+        vkCmdCopyImageToBuffer(commands, texture.image(), kCopiedFrom.layout, buffer.get(), 1, &copy);
+        makeVisibleToHost(commands, buffer);
+    });
+    Image picture(static_cast<int>(extent.width), static_cast<int>(extent.height), 3);
+    const auto* codes = static_cast<const uint8_t*>(buffer.mapped());
+    for (size_t i = 0; i < picture.values.size(); ++i) {
+        picture.values[i] = static_cast<float>(codes[i / 3 * 4 + i % 3]) / 255.0f;
+    }
+    return picture;
+}
+
+TEST_F(BallPathTest, TheBallOfAMaterialIsAPictureOfASphere)
+{
+    constexpr int kSide = 60;
+    for (const Scene& scene : {ggxScene(0.3f), twoMaterialScene()}) {
+        Renderer renderer = rendererOf(scene, RenderPath::automatic);
+        for (size_t material = 0; material < scene.surface.materials.size(); ++material) {
+            for (const float stops : {0.0f, 1.5f}) {
+                renderer.setDisplay({.exposureStops = stops});
+                Scene sphere = scene;
+                sphere.surface = transferredSurface(sphereNormalMap(kSide), scene.surface.materials[material]);
+                Renderer alone = rendererOf(sphere, RenderPath::ball);
+                alone.setDisplay({.exposureStops = stops});
+                const Texture* ball = renderer.drawMaterialBall(material, kSide);
+                ASSERT_NE(ball, nullptr);
+                // Balls of one plain material are codes, those of several 16-bit radiance: at the terminator, where
+                // codes rise fast, a rounding is more than a step.
+                EXPECT_LE(difference(readBack(*context, *ball), alone.picture()).anyShare, 0.01);
+            }
+        }
+        renderer.setPath(RenderPath::direct);
+        EXPECT_EQ(renderer.drawMaterialBall(0, kSide), nullptr);
+    }
+}
+
 TEST_F(BallPathTest, LabelsWithoutAMaterialAreBlack)
 {
     Scene scene = twoMaterialScene();

@@ -3,6 +3,7 @@
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/packing.hpp>
+#include <glm/matrix.hpp>
 #include <gtest/gtest.h>
 
 #include "engine/files/measures.h"
@@ -167,6 +168,37 @@ TEST_F(MeshRasterTest, ManyUploadsAreOnePicture)
     const auto [degrees, pixels] = sphereErrors(view(mesh, {.width = kRasterSize, .height = kRasterSize}));
     EXPECT_LT(degrees, 0.2);
     EXPECT_LT(pixels, 0.05);
+}
+
+// A direct view from where a turn brings the viewer shows the same, as large and centred where it fits alike.
+TEST_F(MeshRasterTest, ATurnIsAViewFromElsewhere)
+{
+    const Mesh mesh = loadMesh(write("octahedron.obj", "v 1 0 0\nv -1 0 0\nv 0 2 0\nv 0 -2 0\nv 0 0 3\nv 0 0 -3\n"
+                                                       "f 1 3 5\nf 3 2 5\nf 2 4 5\nf 4 1 5\n"
+                                                       "f 3 1 6\nf 2 3 6\nf 4 2 6\nf 1 4 6\n"));
+    for (const auto& [turn, from] :
+         {std::pair(Turn{.yaw = 90}, glm::vec3(-1, 0, 0)), std::pair(Turn{.yaw = -90}, glm::vec3(1, 0, 0)),
+          std::pair(Turn{.yaw = 180}, glm::vec3(0, 0, -1))}) {
+        const MeshView turned = fittedView(mesh, {.turn = turn}), direct = fittedView(mesh, {.from = from});
+        const double scale = turned.pixelsPerUnit / direct.pixelsPerUnit;
+        EXPECT_LE(scale, 1 + 1e-12) << "all of it is seen";
+        for (const glm::vec3& p : mesh.positions) {
+            const glm::dvec3 a = turned.pixelPoint(p), b = direct.pixelPoint(p), middle(512, 512, 0);
+            EXPECT_LT(glm::length((a - middle) - scale * (b - middle)), 1e-6);
+        }
+    }
+}
+
+TEST_F(MeshRasterTest, PitchBringsTheTopNearerAndRollIsCounterClockwise)
+{
+    const auto turned = [](const Turn& turn, const glm::dvec3& v) { return matrixOf(turn) * v; };
+    EXPECT_GT(turned({.pitch = 30}, {0, 1, 0}).z, 0);
+    EXPECT_GT(turned({.yaw = 30}, {0, 0, 1}).x, 0);
+    EXPECT_GT(turned({.roll = 30}, {1, 0, 0}).y, 0);
+    const glm::dmat3 any = matrixOf({.yaw = 40, .pitch = -70, .roll = 110});
+    EXPECT_NEAR(glm::determinant(any), 1, 1e-12);
+    EXPECT_EQ(turnFromText(textOf(Turn{.yaw = 40.25f, .pitch = -70, .roll = 110})),
+              (Turn{.yaw = 40.25f, .pitch = -70, .roll = 110}));
 }
 
 } // namespace

@@ -41,6 +41,37 @@ Session after(std::initializer_list<KeyPress> keys, Session session = opened())
     return session;
 }
 
+TEST(Shapes, OneKeyStepsThroughThem)
+{
+    const KeyPress step{.key = 'T'};
+    EXPECT_EQ(after({step}).state.onto, "/t/cloth.exr");
+    EXPECT_EQ(after({step, step}).state, opened().state);
+}
+
+TEST(Shapes, AWayBackTurnsAMeshBack)
+{
+    Session session = opened();
+    session.canTurn = true;
+    turnObject(session, {17, -333});
+    EXPECT_EQ(session.state.turn, (Turn{.yaw = 4.25f, .pitch = -83.25f}));
+    turnObject(session, {-17, 333});
+    EXPECT_EQ(session.state, opened().state);
+    turnObject(session, {1450, 1000});
+    EXPECT_EQ(session.state.turn, (Turn{.yaw = 2.5f, .pitch = 90})) << "once around, and not upside down";
+}
+
+TEST(Shapes, WhatHasNoMeshStays)
+{
+    Session session = opened();
+    turnObject(session, {10, 10});
+    EXPECT_EQ(session.state, opened().state);
+    EXPECT_NE(session.message, "");
+    session.canTurn = true;
+    turnObject(session, {10, 10});
+    chooseTarget(session, someChoices(), 1);
+    EXPECT_EQ(session.state.turn, Turn()) << "another shape is not turned";
+}
+
 TEST(Lights, ThePushedOneComesNearerAndGoesAway)
 {
     Session session = opened();

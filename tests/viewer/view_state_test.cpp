@@ -18,6 +18,7 @@ ViewState fullState(const std::filesystem::path& folder)
         .surface = folder / "a" / "horse.nacre",
         .material = "ggx:alpha=0.2",
         .onto = folder / "cloth.exr",
+        .turn = {.yaw = 30.25f, .pitch = -15, .roll = 5},
         .normalY = NormalY::dx,
         .size = PictureSize{640, 480},
         .shadows = true,
