@@ -11,11 +11,11 @@ namespace nacre {
 
 namespace {
 
-constexpr int kDistanceSteps = 5;       // third octaves nearer and further than the start
-constexpr int kDepthSteps = 6;          // in front and behind, of
-constexpr double kDepthStep = 0.05;     // widths of the object
-constexpr int kSurfaceSteps = 4;        // each leaves a third of the last one's error,
-constexpr int kLensSteps = 8;           // but behind a lens more: surfaces half found show distances that are not there
+constexpr int kDistanceSteps = 5;   // third octaves nearer and further than the start
+constexpr int kDepthSteps = 6;      // in front and behind, of
+constexpr double kDepthStep = 0.05; // widths of the object
+constexpr int kSurfaceSteps = 4;    // each leaves a third of the last one's error
+constexpr int kLensSteps = 8;       // but by a lens alone more: a surface half found shows a distance that is not there
 constexpr size_t kPlacingTriples = 100; // of lights: medians over pixels do not need each pixel's best one
 
 // A sample whose pixels stand for squares of a picture, as a picture of such squares.
@@ -70,7 +70,8 @@ struct PlaceBench {
 void explainSurface(const PlaceBench& bench, PlaceTrial& trial)
 {
     const Observations& seen = bench.grid.seen;
-    const int steps = std::isfinite(trial.near.cameraDistance) ? kLensSteps : kSurfaceSteps;
+    const bool isLens = std::isfinite(trial.near.cameraDistance) && trial.near.lights.empty();
+    const int steps = isLens ? kLensSteps : kSurfaceSteps;
     for (int step = 0; step < steps; ++step) {
         const LocalLights local(bench.lights, trial.near, trial.guess.height, bench.grid.size.x);
         const Intensities distant =

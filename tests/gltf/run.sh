@@ -11,7 +11,7 @@ fi
 mkdir -p "$folder"
 cp "$sources/package.json" "$sources/package-lock.json" "$folder"
 if ! [ -d "$folder/node_modules/gltf-validator" ] &&
-    ! npm ci --prefix "$folder" --no-audit --no-fund --ignore-scripts --fetch-retries 0 >"$folder/npm.log" 2>&1; then
+    ! npm ci --prefix "$folder" --no-audit --no-fund --ignore-scripts --fetch-retries 0 --fetch-timeout 20000 >"$folder/npm.log" 2>&1; then
     echo "needs the npm registry for gltf-validator:"
     tail -n 3 "$folder/npm.log"
     exit 77
