@@ -168,7 +168,8 @@ TEST_F(RenderTest, BadOptionsAreUsageErrors)
     expectRefusal(render("new.tga", {}), 2, ".png (8-bit sRGB) or .exr");
     expectRefusal(render("new.png", {"--onto", path("s.nacre"), "--normal-y", "up"}), 2, "gl (green points up)");
     expectRefusal(render("new.png", {"--onto", "make:head"}), 2, "nacre target make:head");
-    expectRefusal(render("new.png", {"--onto", path("mesh.obj")}), 2, "nacre transfer");
+    expectRefusal(render("new.png", {"--onto", path("mesh.obj")}), 3, "a mesh file");
+    expectRefusal(render("new.png", {"--turn", "30,0"}), 2, "cannot be turned");
 }
 
 TEST_F(RenderTest, ViewRefusesPhotographsThatAreNone)
