@@ -16,6 +16,7 @@
 #include "engine/files/parallel_for.h"
 #include "engine/scene/pixel_lights.h"
 #include "engine/surface/object_places.h"
+#include "shared/lens.h"
 
 namespace nacre {
 
@@ -27,7 +28,6 @@ constexpr size_t kParts = 3;            // of the lights, each of which one heig
 constexpr size_t kFirstParts = 2;       // of them; where these say nothing for shadows, the rest is not asked
 constexpr size_t kStatesAtOnce = 256;
 constexpr int kBallSize = 64; // states need no more
-const glm::vec3 kFront(0, 0, 1);
 
 struct ThinnedGrid {
     LitGrid grid;
@@ -40,16 +40,12 @@ int spacingFor(size_t pixels, size_t lights)
     return std::max(1, static_cast<int>(std::ceil(std::sqrt(static_cast<double>(pixels * lights) / kMostStates))));
 }
 
-// A light as points of the grid see it: the projective map of shaders/shared/lens.h of its place, or of its direction
-// as a place at infinity, in homogeneous coordinates. From widths of the object to pixels of the grid.
+// A light as points of the grid see it, in pixels of the grid.
 glm::vec4 lightOverGrid(const Surface& surface, const Light& light, const Thinning& thinning)
 {
-    glm::vec4 place = isNear(light) ? glm::vec4(light.distance * light.direction, 1) : glm::vec4(light.direction, 0);
-    if (surface.camera) {
-        const glm::vec2 axis(*surface.camera);
-        place.w -= place.z / surface.camera->z;
-        place += glm::vec4(axis * (place.w - (isNear(light) ? 1.0f : 0.0f)), 0, 0);
-    }
+    const glm::vec4 place =
+        pointInPicture(viewpointOf(surface, kFrontView),
+                       isNear(light) ? glm::vec4(light.distance * light.direction, 1) : glm::vec4(light.direction, 0));
     if (place.w == 0) {
         return place;
     }
@@ -133,7 +129,7 @@ ThinnedGrid litGridOf(const Measurement& measurement, ObservationBlocks& blocks,
     const Surface& surface = measurement.surface;
     const int threads = measurement.prepared.threads;
     const LightBalls balls(surface, isPlaced(surface) ? 0 : kBallSize, threads);
-    const PixelLights met(surface, unitLights(surface), kFront);
+    const PixelLights met(surface, unitLights(surface), kFrontView);
     ThinnedGrid thinned = emptyGrid(surface, pixels);
     thinned.normals = measurement.prepared.nearField ? withoutLens(surface.normals, *measurement.prepared.nearField)
                                                      : surface.normals;
@@ -174,7 +170,7 @@ Surface casterBy(const Measurement& measurement, const ThinnedGrid& thinned, std
 void hideLights(const Surface& caster, std::span<const uint32_t> pixels, const std::vector<Light>& lights,
                 Eigen::MatrixXf& predicted)
 {
-    const PixelLights met(caster, lights, kFront);
+    const PixelLights met(caster, lights, kFrontView);
     for (size_t p = 0; p < pixels.size(); ++p) {
         for (size_t i = 0; i < lights.size(); ++i) {
             predicted.block<3, 1>(static_cast<Eigen::Index>(3 * p), static_cast<Eigen::Index>(i)) *=

@@ -32,9 +32,9 @@ bool isFar(const LobeFit& fit, const LobeFitScale& scale);
 // What is missed is more than half of what is there (6 dB).
 bool isNothing(const LobeFit& fit, const LobeFitScale& scale);
 
-// The parameters nearest to the material. What a format has beyond its few first parameters (glTF's extensions, sheen)
-// is used where it
-// brings half a dB and less than 45 dB are reached. Colours stay below `most`. The judge must not be empty.
+// The parameters nearest to the material. What a format has beyond its few first parameters (glTF's extensions,
+// sheen) is used where it brings half a dB and less than 45 dB are reached. Colours stay below `most`. The judge must
+// not be empty.
 LobeFit fitLobes(const ModelJudge& judge, ExchangeFormat format, float most = 1, int threads = 0);
 
 } // namespace nacre

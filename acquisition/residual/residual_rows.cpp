@@ -14,8 +14,6 @@ namespace nacre {
 
 namespace {
 
-const glm::vec3 kFront(0, 0, 1);
-
 // Side by side, so that one texel answers for all lights.
 std::vector<float> ballsOf(const Surface& surface, const BrdfTable& table, int size, int threads)
 {
@@ -47,11 +45,11 @@ std::vector<Light> unitLights(const Surface& surface)
 
 bool isPlaced(const Surface& surface)
 {
-    return needsPlaces(surface, unitLights(surface), kFront);
+    return needsPlaces(surface, unitLights(surface), kFrontView);
 }
 
 LightBalls::LightBalls(const Surface& surface, int size, int threads)
-    : surface_(surface), size_(size), met_(surface, unitLights(surface), kFront)
+    : surface_(surface), size_(size), met_(surface, unitLights(surface), kFrontView)
 {
     assert(size == 0 || !isPlaced(surface));
     if (size > 0) {

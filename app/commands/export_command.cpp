@@ -17,6 +17,7 @@
 #include "app/arguments/destinations.h"
 #include "app/commands/commands.h"
 #include "app/materials/parameter_export.h"
+#include "app/materials/rti_fits.h"
 #include "app/page/page_export.h"
 #include "engine/files/error.h"
 #include "engine/files/parallel_for.h"
@@ -38,105 +39,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-struct RtiFitOptions {
-    int lights = 0;                     // white, of irradiance 1, one at a time
-    std::optional<float> exposureStops; // without: the 99th percentile over all lights' pictures lies at 0.9
-    int threads = 0;                    // 0 = all
-};
-
-// A surface as reflectance transformation images have it: fitted to its pictures for the eye, made by the renderer's
-// formulas on the CPU.
-class RtiFits {
-public:
-    RtiFits(Surface surface, std::span<const RtiBasis> bases, const RtiFitOptions& options);
-
-    const RtiPicture& of(RtiBasis basis) const;
-    const std::vector<glm::vec3>& lights() const { return lights_; }
-    float exposureStops() const { return stops_; }
-
-    // Of what a file shows against the surface under rtiCheckLights, which were not fitted, in dB over the object.
-    double psnrOf(const RtiPicture& fromFile);
-
-private:
-    Image pictureUnder(const glm::vec3& light);
-
-    Scene scene_;
-    std::vector<glm::vec3> lights_;
-    float stops_;
-    int threads_;
-    std::vector<RtiPicture> fits_;
-};
-
-constexpr size_t kRowsAtOnce = 16;
-constexpr int kExposureSide = 96; // pixels: enough for a percentile, few enough for all lights at once
-
-Frame radianceUnder(Scene& scene, const glm::vec3& light, int threads)
-{
-    scene.lights = {{light, glm::vec3(1)}};
-    return renderReference(scene, threads);
-}
-
-// displayImage by rows on all threads.
-Image displayedOnThreads(const Frame& radiance, float stops, int threads)
-{
-    Image picture(radiance.width, radiance.height, 3);
-    parallelFor(radiance.height, kRowsAtOnce, threads, [&](size_t first, size_t last) {
-        Image rows(radiance.width, static_cast<int>(last - first), 3);
-        const auto offset = static_cast<std::ptrdiff_t>(radiance.index(0, static_cast<int>(first)));
-        std::copy_n(radiance.values.begin() + offset, rows.values.size(), rows.values.begin());
-        rows = displayedImage(rows, {.exposureStops = stops});
-        std::copy(rows.values.begin(), rows.values.end(), picture.values.begin() + offset);
-    });
-    return picture;
-}
-
-float commonExposure(const Surface& surface, const std::vector<glm::vec3>& lights, int threads)
-{
-    Scene small{fittedSurface(surface, kExposureSide, kExposureSide), {}};
-    Image all(kExposureSide, kExposureSide * static_cast<int>(lights.size()), 3);
-    auto end = all.values.begin();
-    for (const glm::vec3& light : lights) {
-        const Frame frame = radianceUnder(small, light, threads);
-        end = std::copy(frame.values.begin(), frame.values.end(), end);
-    }
-    return automaticExposure(all);
-}
-
-// 1 where there is a normal with a material.
-std::vector<uint8_t> maskOf(const Surface& surface)
-{
-    std::vector<uint8_t> mask(surface.labels.size(), 0);
-    for (size_t i = 0; i < mask.size(); ++i) {
-        mask[i] = surface.normals.confidence[i] > 0 && surface.labels[i] < surface.materials.size();
-    }
-    return mask;
-}
-
-RtiFits::RtiFits(Surface surface, std::span<const RtiBasis> bases, const RtiFitOptions& options)
-    : scene_{std::move(surface), {}}, lights_(rtiLights(options.lights)),
-      stops_(options.exposureStops ? *options.exposureStops : commonExposure(scene_.surface, lights_, options.threads)),
-      threads_(options.threads),
-      fits_(fitRti([this](const glm::vec3& light) { return pictureUnder(light); }, bases, lights_, threads_))
-{
-}
-
-const RtiPicture& RtiFits::of(RtiBasis basis) const
-{
-    return *std::find_if(fits_.begin(), fits_.end(), [&](const RtiPicture& fit) { return fit.basis == basis; });
-}
-
-double RtiFits::psnrOf(const RtiPicture& fromFile)
-{
-    return rtiPsnr(
-        fromFile, [this](const glm::vec3& light) { return pictureUnder(light); }, rtiCheckLights(),
-        maskOf(scene_.surface), threads_);
-}
-
-Image RtiFits::pictureUnder(const glm::vec3& light)
-{
-    return displayedOnThreads(radianceUnder(scene_, light, threads_), stops_, threads_);
-}
-
 struct ExportArguments {
     std::filesystem::path surface;
     std::filesystem::path ptm;
@@ -154,6 +56,7 @@ struct ExportArguments {
     bool quiet = false;
     bool force = false;
     PageArguments page;
+    fs::path fits;
 
     void addTo(CLI::App& command);
     // Throws usage Errors, and data Errors for outputs that cannot be written.
@@ -208,14 +111,15 @@ void requireChoices(const ExportArguments& arguments)
 
 void requireOutputs(const ExportArguments& arguments)
 {
-    std::vector<fs::path> outputs = {arguments.ptm, arguments.web, arguments.normals, arguments.albedo,
-                                     arguments.page.file};
+    const ParameterExport& parameters = arguments.parameters;
+    std::vector<fs::path> outputs = {arguments.ptm,       arguments.web,   arguments.normals,    arguments.albedo,
+                                     arguments.page.file, parameters.gltf, parameters.materialX, parameters.balls};
     std::erase_if(outputs, [](const fs::path& output) { return output.empty(); });
-    if (outputs.empty() && !arguments.parameters.isAsked()) {
+    if (outputs.empty()) {
         throw usageError("nothing is asked for",
                          "--page, --ptm, --rti-web, --write-normals, --albedo, --gltf or --materialx");
     }
-    arguments.parameters.check();
+    parameters.check();
     for (size_t i = 0; i < outputs.size(); ++i) {
         if (std::find(outputs.begin(), outputs.begin() + static_cast<std::ptrdiff_t>(i), outputs[i]) !=
             outputs.begin() + static_cast<std::ptrdiff_t>(i)) {
@@ -252,6 +156,9 @@ void ExportArguments::addTo(CLI::App& command)
     command.add_option("--balls", parameters.balls, "Balls of the materials beside those of the parameters, FILE.png")
         ->option_text("FILE");
     command.add_option("--width", parameters.width, "Width of --gltf in metres")->capture_default_str();
+    command
+        .add_option("--fits", fits, "Folder of merl_abc_params.csv and merl_sgd_params.csv (default: $NACRE_FITS_DIR)")
+        ->option_text("DIR");
     command.add_option("--lights", lights, "Number of virtual lights for the fits of --ptm and --rti-web")
         ->capture_default_str();
     command.add_option("--exposure", exposure,
@@ -452,6 +359,7 @@ void exportPage(const ExportArguments& arguments, const Surface& surface)
         return;
     }
     PageArguments page = arguments.page;
+    page.fits = arguments.fits;
     page.shadows = arguments.shadows;
     page.threads = arguments.threads;
     const SurfacePage made = pageOfSurface(page, arguments.surface, surface);
@@ -471,10 +379,9 @@ ParameterExport parametersOf(const ExportArguments& arguments)
 {
     ParameterExport asked = arguments.parameters;
     asked.source = arguments.surface.string();
-    asked.fits = fitsFolderFrom(arguments.page.fits);
+    asked.fits = fitsFolderFrom(arguments.fits);
     asked.threads = arguments.threads;
     asked.quiet = arguments.quiet;
-    asked.force = arguments.force;
     return asked;
 }
 

@@ -22,6 +22,7 @@
 #include "engine/files/text_files.h"
 #include "engine/files/whole_file.h"
 #include "engine/materials/material_specification.h"
+#include "engine/scene/ball.h"
 #include "engine/surface/height_from_normals.h"
 #include "engine/surface/surface.h"
 
@@ -182,27 +183,15 @@ LobeFit fitAs(const ParameterExport& asked, const Fitted& fitted, ExchangeFormat
 }
 
 constexpr int kBallSide = 240;
-const glm::vec3 kBallLights[] = {glm::normalize(glm::vec3(-0.45f, 0.5f, 0.75f)),
-                                 glm::normalize(glm::vec3(0.8f, 0.2f, 0.45f))};
+const Light kBallLights[] = {{glm::normalize(glm::vec3(-0.45f, 0.5f, 0.75f)), glm::vec3(1)},
+                             {glm::normalize(glm::vec3(0.8f, 0.2f, 0.45f)), glm::vec3(1)}};
 
-// A ball of radiance under two lights; 0 outside.
-template <class F> void drawBall(Image& image, int left, int top, const F& f)
+void drawBall(Image& image, int left, int top, const LitAndSeen& f)
 {
+    const Image ball = materialBall(f, kBallLights, kBallSide);
     for (int y = 0; y < kBallSide; ++y) {
         for (int x = 0; x < kBallSide; ++x) {
-            const glm::vec2 p(2.1f * (x + 0.5f) / kBallSide - 1.05f, 1.05f - 2.1f * (y + 0.5f) / kBallSide);
-            const float square = glm::dot(p, p);
-            if (square >= 1) {
-                continue;
-            }
-            const glm::vec3 n(p, std::sqrt(1 - square)), v(0, 0, 1);
-            glm::vec3 sum(0);
-            for (const glm::vec3& l : kBallLights) {
-                if (glm::dot(n, l) > 0) {
-                    sum += f(n, l, v) * glm::dot(n, l);
-                }
-            }
-            image.setRgb(left + x, top + y, sum);
+            image.setRgb(left + x, top + y, ball.rgb(x, y));
         }
     }
 }
@@ -285,7 +274,6 @@ void ParameterExport::check() const
             throw Error("", fmt::format("{} {} is no such file", option, file.string()),
                         fmt::format("NAME{}", extension), Error::kUsage);
         }
-        requireFile(file, force);
     };
     require("--gltf", gltf, ".glb");
     require("--materialx", materialX, ".mtlx");

@@ -12,10 +12,9 @@ struct ParameterExport {
     float width = 1; // metres of the picture of a surface, of the sphere of a material
     int threads = 0;
     bool quiet = false;
-    bool force = false;
 
     bool isAsked() const { return !gltf.empty() || !materialX.empty() || !balls.empty(); }
-    // Throws usage Errors, and data Errors for outputs that cannot be written.
+    // Throws usage Errors.
     void check() const;
 };
 

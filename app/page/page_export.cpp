@@ -10,6 +10,7 @@
 #include <glm/trigonometric.hpp>
 
 #include "app/materials/transfer_sources.h"
+#include "app/page/page_budget.h"
 #include "app/page/page_photographs.h"
 #include "app/page/page_tables.h"
 #include "engine/files/error.h"
@@ -27,8 +28,6 @@ namespace {
 constexpr int kMostSide = 2048; // pixels of a shape: 32-bit telephones hold the arrays of 4 megapixels
 constexpr int kOntoSide = 384;  // pixels of the other shapes
 constexpr int kMostPagePhotographs = 24;
-constexpr int kJudgedSide = 192; // pixels of the pictures that tell what the page costs
-constexpr size_t kJudgedLights = 6;
 constexpr size_t kNoteBytes = 4096; // of what the page says of itself
 
 // Every so many pixels alone, where there are more than a page should have.
@@ -45,213 +44,9 @@ Surface downscaled(Surface surface, const std::string& name, int mostSide, std::
     return fittedSurface(surface, width, height);
 }
 
-// ---- what is left out where bytes are few
-
-HorizonMap everySecondAzimuth(const HorizonMap& map)
-{
-    HorizonMap half(map.width, map.height, map.azimuths / 2);
-    for (int azimuth = 0; azimuth < half.azimuths; ++azimuth) {
-        std::copy_n(&map.codes[2 * azimuth * map.pixelCount()], map.pixelCount(),
-                    &half.codes[azimuth * map.pixelCount()]);
-    }
-    return half;
-}
-
-// How much of radiance over irradiance one code of each component is, under the captured light that it matters most
-// for.
-std::vector<float> codeStrengths(const ResidualLayer& layer)
-{
-    std::vector<float> strengths(layer.components, 0.0f);
-    const ResidualLights captured(layer);
-    for (const glm::vec3& node : layer.nodes) {
-        const ResidualLight light = captured.at(node);
-        for (int k = 0; k < layer.components; ++k) {
-            const glm::vec3 weight = glm::abs(light.weights[k]);
-            const float strength = std::max({weight.x, weight.y, weight.z}) * (layer.high[k] - layer.low[k]) / 255;
-            strengths[k] = std::max(strengths[k], strength);
-        }
-    }
-    return strengths;
-}
-
-// The layer rounded to steps of so much radiance over irradiance, the same for all components: what is weaker goes,
-// what is stronger stays (reverse water-filling: Cover, Thomas, Elements of Information Theory, 2006, 10.3.3).
-ResidualLayer roundedLayer(const ResidualLayer& layer, float step)
-{
-    ResidualLayer rounded = layer;
-    const std::vector<float> strengths = codeStrengths(layer);
-    for (int k = 0; k < layer.components; ++k) {
-        const float codes = std::max(1.0f, std::floor(step / std::max(strengths[k], 1e-12f)));
-        const float zero = -255 * layer.low[k] / std::max(layer.high[k] - layer.low[k], 1e-12f);
-        const size_t first = k / kComponentsPerTexel * layer.pixelCount();
-        for (size_t pixel = 0; pixel < layer.pixelCount(); ++pixel) {
-            uint8_t& code = rounded.codes[(first + pixel) * kComponentsPerTexel + k % kComponentsPerTexel];
-            const float value = zero + codes * std::round((static_cast<float>(code) - zero) / codes);
-            code = static_cast<uint8_t>(std::lround(std::clamp(value, 0.0f, 255.0f)));
-        }
-    }
-    return rounded;
-}
-
-// What of an object a page leaves out where its bytes are few.
-struct Savings {
-    int azimuths = 0; // of the horizons, that are kept
-    float step = 0;   // of the residual layer (roundedLayer); 0: as stored, infinite: no layer
-
-    Surface of(const Surface& own) const
-    {
-        Surface object = own;
-        while (object.horizon.azimuths > azimuths) {
-            object.horizon = azimuths == 0 ? HorizonMap() : everySecondAzimuth(object.horizon);
-        }
-        if (step > 0 && !own.residual.empty()) {
-            object.residual = std::isinf(step) ? ResidualLayer() : roundedLayer(own.residual, step);
-        }
-        return object;
-    }
-};
-
-std::vector<Light> judgedLights(const Surface& surface)
-{
-    std::vector<Light> lights;
-    const size_t count = std::min(kJudgedLights, surface.lights.size());
-    for (size_t i = 0; i < count; ++i) {
-        lights.push_back(surface.lights[i * surface.lights.size() / count].light);
-    }
-    return lights.empty() ? std::vector<Light>{{glm::normalize(glm::vec3(-0.4f, 0.5f, 0.8f))}} : lights;
-}
-
-// Of the surface under its captured lights.
-float peakOverIrradiance(const Surface& surface)
-{
-    Scene scene{fittedSurface(surface, kJudgedSide, kJudgedSide), {}};
-    float largest = 0;
-    for (const Light& light : judgedLights(surface)) {
-        scene.lights = {light};
-        const Frame frame = renderReference(scene);
-        const glm::vec3& e = light.irradiance;
-        largest = std::max(largest, std::exp2(-automaticExposure(frame)) / std::max({e.x, e.y, e.z, 1e-12f}));
-    }
-    return largest;
-}
-
-// dB of the page's pictures against the surface's own, both from the front under captured lights.
-double decibelsOf(const Surface& page, const Surface& own)
-{
-    Scene shown{fittedSurface(page, kJudgedSide, kJudgedSide), {}},
-        truth{fittedSurface(own, kJudgedSide, kJudgedSide), {}};
-    std::vector<uint8_t> mask;
-    for (size_t i = 0; i < truth.surface.labels.size(); ++i) {
-        mask.push_back(isShaded(truth.surface, i) ? 1 : 0);
-    }
-    double squares = 0;
-    const std::vector<Light> lights = judgedLights(own);
-    for (const Light& light : lights) {
-        shown.lights = truth.lights = {light};
-        const Frame frame = renderReference(truth);
-        squares += std::pow(10, -0.1 * radiancePsnr(renderReference(shown), frame, mask, peakOf(frame, mask)));
-    }
-    return -10 * std::log10(std::max(squares / static_cast<double>(lights.size()), 1e-12));
-}
-
 std::string textOf(double decibels)
 {
     return decibels >= 99 ? "exactly" : fmt::format("to {:.1f} dB", decibels);
-}
-
-size_t bytesOf(const std::vector<PageParts::Share>& shares, const std::string& kind)
-{
-    const auto found =
-        std::find_if(shares.begin(), shares.end(), [&](const auto& share) { return share.kind == kind; });
-    return found == shares.end() ? 0 : found->bytes;
-}
-
-constexpr const char* kLayer = "residual layer";
-constexpr const char* kShadows = "cast shadows";
-
-// Savings of one of the two alone, with the bytes that are left of it.
-struct SizedSavings {
-    Savings savings;
-    size_t bytes = 0;
-};
-
-std::vector<SizedSavings> sized(const Surface& own, const std::vector<Savings>& savings, const char* kind)
-{
-    std::vector<SizedSavings> all;
-    for (const Savings& saving : savings) {
-        PageParts parts;
-        describeShape("", saving.of(own), {true, false}, parts);
-        all.push_back({saving, bytesOf(parts.shares(), kind)});
-    }
-    return all;
-}
-
-// From all directions to none.
-std::vector<Savings> horizonSavings(const Surface& own)
-{
-    std::vector<Savings> savings;
-    for (int azimuths = own.horizon.azimuths; azimuths >= 8; azimuths /= 2) {
-        savings.push_back({azimuths, std::numeric_limits<float>::infinity()});
-    }
-    savings.push_back({0, std::numeric_limits<float>::infinity()});
-    return savings;
-}
-
-// From the layer as stored to none.
-std::vector<Savings> layerSavings(const Surface& own)
-{
-    constexpr float kFirstStep = 1.0f / 1024, kLastStep = 0.1f, kCoarser = 1.41421356f; // of the peak
-    const float peak = peakOverIrradiance(own);
-    std::vector<Savings> savings = {{0, 0}};
-    for (float share = kFirstStep; share < kLastStep && !own.residual.empty(); share *= kCoarser) {
-        savings.push_back({0, share * peak});
-    }
-    savings.push_back({0, std::numeric_limits<float>::infinity()});
-    return savings;
-}
-
-// The savings that are enough for `bytes` of layer and shadows together and cost least; none where nothing is enough.
-std::optional<Savings> bestSavings(const Surface& own, size_t bytes)
-{
-    const std::vector<SizedSavings> layers = sized(own, layerSavings(own), kLayer);
-    std::optional<Savings> best;
-    double most = 0;
-    for (const SizedSavings& horizon : sized(own, horizonSavings(own), kShadows)) {
-        const auto layer = std::find_if(layers.begin(), layers.end(), [&](const SizedSavings& sizedLayer) {
-            return sizedLayer.bytes + horizon.bytes <= bytes;
-        });
-        if (layer == layers.end()) {
-            continue;
-        }
-        const Savings both{horizon.savings.azimuths, layer->savings.step};
-        const double decibels = decibelsOf(both.of(own), own);
-        if (!best || decibels > most) {
-            best = both;
-            most = decibels;
-        }
-    }
-    return best;
-}
-
-// The object with fewer details where all are too much for the budget (0: none is set).
-void fitInto(PageContent& content, size_t budget)
-{
-    if (budget == 0) {
-        return;
-    }
-    const PageText text = makePage(content);
-    if (text.html.size() <= budget) {
-        return;
-    }
-    const size_t rest = text.html.size() - bytesOf(text.shares, kLayer) - bytesOf(text.shares, kShadows);
-    const std::optional<Savings> savings =
-        rest < budget ? bestSavings(content.object, budget - rest) : std::optional<Savings>();
-    if (!savings) {
-        throw Error("", fmt::format("--budget-bytes {} is too little", budget),
-                    fmt::format("{} or more; --size, fewer shapes or photographs make a page smaller", rest),
-                    Error::kUsage);
-    }
-    content.object = savings->of(content.object);
 }
 
 std::string describeLeftOut(const Surface& page, const Surface& own)
@@ -339,7 +134,6 @@ TransferArguments transferArgumentsOf(const PageArguments& arguments)
     transfer.fits = arguments.fits;
     transfer.size = fmt::format("{0}x{0}", kOntoSide);
     transfer.enlarges = false;
-    transfer.device = arguments.device;
     transfer.threads = arguments.threads;
     transfer.shadows = arguments.shadows;
     return transfer;
@@ -409,9 +203,6 @@ void PageArguments::addTo(CLI::App& command)
             "--budget-bytes", size.budget,
             "Most bytes of the page, e.g. 1MiB: less of the residual layer and of cast shadows where it is over")
         ->group(group);
-    command
-        .add_option("--fits", fits, "Folder of merl_abc_params.csv and merl_sgd_params.csv (default: $NACRE_FITS_DIR)")
-        ->group(group);
 }
 
 void PageArguments::check() const
@@ -456,9 +247,9 @@ SurfacePage pageOfSurface(const PageArguments& arguments, const fs::path& folder
     content.object = heldByPage(std::move(content.object));
     addShapes(arguments, std::move(shapes), page, content);
     // The notes, which tell what was left out, are written last.
-    fitInto(content, size.budgetBytes == 0 ? 0 : std::max<size_t>(size.budgetBytes, kNoteBytes + 1) - kNoteBytes);
+    fitIntoBudget(content, size.budgetBytes == 0 ? 0 : std::max<size_t>(size.budgetBytes, kNoteBytes + 1) - kNoteBytes);
     const std::string left = describeLeftOut(content.object, own);
-    const double decibels = decibelsOf(content.object, own);
+    const double decibels = pageDecibels(content.object, own);
     content.notes = notesOf(own, content.object, left, decibels);
     page.text = makePage(content);
     describeBytes(page.text, page.lines);

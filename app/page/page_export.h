@@ -19,7 +19,6 @@ struct PageArguments {
     LadderArguments size{.tolerance = "50dB", .budget = ""};
     std::filesystem::path fits;
     bool shadows = false; // of the shapes, from their heights
-    std::string device;
     int threads = 0;
 
     void addTo(CLI::App& command);

@@ -13,18 +13,7 @@
 namespace nacre {
 namespace {
 
-constexpr int kQuality = 88; // of JPEG: neighbouring qualities are told apart by bytes alone
-
-Image cropped(const Image& picture, const PageCrop& crop)
-{
-    Image part(crop.width, crop.height, 3);
-    for (int y = 0; y < crop.height; ++y) {
-        for (int x = 0; x < crop.width; ++x) {
-            part.setRgb(x, y, picture.rgb(crop.x + x, crop.y + y));
-        }
-    }
-    return part;
-}
+constexpr int kQuality = 88; // of JPEG: its errors are below the eye's, and a higher one costs bytes alone
 
 std::vector<size_t> spreadLights(const Surface& surface, int count)
 {

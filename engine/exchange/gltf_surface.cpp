@@ -6,15 +6,12 @@
 #include <glm/common.hpp>
 
 #include "engine/files/whole_file.h"
+#include "engine/surface/object_places.h"
+#include "shared/lens.h"
+#include "shared/shading.h"
 
 namespace nacre {
 namespace {
-
-float srgbCode(float linear)
-{
-    linear = std::clamp(linear, 0.0f, 1.0f);
-    return linear <= 0.0031308f ? 12.92f * linear : 1.055f * std::pow(linear, 1 / 2.4f) - 0.055f;
-}
 
 std::string pngOf(const Image& codes)
 {
@@ -136,7 +133,7 @@ private:
         Image codes = picture(surface_, withAlpha ? 4 : 3, [&](size_t pixel, float* code) {
             const glm::vec3 value = valueOf(pixel) / largest;
             for (int c = 0; c < 3; ++c) {
-                code[c] = srgbCode(value[c]);
+                code[c] = srgbFromLinear(value[c]);
             }
         });
         for (size_t pixel = 0; withAlpha && pixel < surface_.labels.size(); ++pixel) {
@@ -220,6 +217,11 @@ GltfMesh relief(const Surface& surface, const Image& height, const GltfSurfaceOp
     const float metres = options.width / static_cast<float>(width);
     const auto xOf = [&](int i) { return std::min(i * step, static_cast<float>(width)); };
     const auto yOf = [&](int j) { return std::min(j * step, static_cast<float>(rows)); };
+    const ObjectExtent extent = extentOf(surface.normals);
+    const auto across = static_cast<float>(extent.width);
+    const float plane = outlineHeight(surface.normals, height);
+    const glm::vec3 middle(extent.middle.x - 0.5f * width, 0.5f * rows - extent.middle.y, plane);
+    const glm::vec4 viewpoint = viewpointOf(surface, kFrontView);
     std::vector<int> numbers(static_cast<size_t>(nx) * ny, -1);
     GltfMesh mesh;
     const auto vertex = [&](int i, int j) {
@@ -227,8 +229,10 @@ GltfMesh relief(const Surface& surface, const Image& height, const GltfSurfaceOp
         if (known < 0) {
             known = static_cast<int>(mesh.positions.size());
             const float x = xOf(i), y = yOf(j);
-            mesh.positions.push_back(
-                metres * glm::vec3(x - 0.5f * width, 0.5f * rows - y, heightAt(surface, height, x, y, reach)));
+            const float over = heightAt(surface, height, x, y, reach) - plane;
+            const glm::vec3 place =
+                placeOnRay(viewpoint, glm::vec2(x - extent.middle.x, extent.middle.y - y) / across, over / across);
+            mesh.positions.push_back(metres * (across * place + middle));
             mesh.normals.emplace_back(0, 0, 1);
             mesh.tangents.emplace_back(1, 0, 0, 1);
             mesh.uvs.emplace_back(x / width, y / rows);

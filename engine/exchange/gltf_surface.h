@@ -20,9 +20,10 @@ struct GltfSurfaceOptions {
     int largestGrid = 256;     // vertices a side
 };
 
-// The surface as a relief of `height` (one channel, pixels) that a textured material covers. The vertices' normals look
-// at the camera, so that the normal map has the surface's own normals; pixels without one are cut out. Materials are
-// packed: each pixel has the parameters of its label. surface.materials are as many as `lobes`, and there is a pixel.
+// The surface as a relief of `height` (one channel, pixels), on the rays of its camera, that a textured material
+// covers. The vertices' normals look at the camera, so that the normal map has the surface's own normals; pixels
+// without one are cut out. Materials are packed: each pixel has the parameters of its label. surface.materials are as
+// many as `lobes`, and there is a pixel.
 GltfScene gltfSurface(const Surface& surface, const Image& height, const std::vector<SurfaceLobes>& lobes,
                       const std::string& name, const GltfSurfaceOptions& options = {});
 

@@ -45,6 +45,15 @@ Renderer::Renderer(const Context& context, VkDeviceSize cacheBytes)
 {
 }
 
+// What was made of the surface's pixels.
+void Renderer::dropPixels()
+{
+    pixels_.reset();
+    exposurePixels_.reset();
+    directFrame_.reset();
+    exposureFrame_.reset();
+}
+
 void Renderer::setSurface(Surface surface, std::vector<BallSize> sizes)
 {
     requirePictureSize(context_, surface.normals.width, surface.normals.height);
@@ -54,11 +63,8 @@ void Renderer::setSurface(Surface surface, std::vector<BallSize> sizes)
     }
     surface_ = std::move(surface);
     plain_ = isPlain(surface_);
-    pixels_.reset();
-    exposurePixels_.reset();
+    dropPixels();
     ballFrame_.reset();
-    directFrame_.reset();
-    exposureFrame_.reset();
     ballSizes_ = std::move(sizes);
     lightsAreStale_ = true;
     radiance_.reset();
@@ -77,10 +83,7 @@ void Renderer::setPixels(const Surface& pixels)
     surface_.horizon = pixels.horizon;
     surface_.places = pixels.places;
     surface_.camera = pixels.camera;
-    pixels_.reset();
-    exposurePixels_.reset();
-    directFrame_.reset();
-    exposureFrame_.reset();
+    dropPixels();
     radiance_.reset();
     if (isOtherSize) {
         ballFrame_.reset();
@@ -254,10 +257,7 @@ void Renderer::placePixels()
 {
     if (surface_.places.empty() && needsPlaces(surface_, lights_, view_)) {
         surface_.places = pixelPlaces(surface_);
-        pixels_.reset();
-        exposurePixels_.reset();
-        directFrame_.reset();
-        exposureFrame_.reset();
+        dropPixels();
     }
 }
 

@@ -86,6 +86,7 @@ private:
     Target& target();
     void uploadLights();
     void placePixels();
+    void dropPixels();
     void lightsHaveChanged();
     void materialBallHasChanged();
     bool hasResidual() const;

@@ -24,10 +24,12 @@ inline bool isNear(const Light& light)
     return light.distance < kDistantFrom;
 }
 
-// Of the direction towards the viewer.
+// Directions towards the viewer.
+inline constexpr glm::vec3 kFrontView{0, 0, 1};
+
 inline bool isFromTheFront(const glm::vec3& view)
 {
-    return view == glm::vec3(0, 0, 1);
+    return view == kFrontView;
 }
 
 } // namespace nacre

@@ -205,14 +205,23 @@ void castShadows(Surface& surface, const std::filesystem::path& source)
     surface.horizon = horizonMap(surface.normals, heightInPicture(surface));
 }
 
-LoadedSurface loadSurfaceOrMesh(const SceneDescription& scene, const fs::path& fits, const Context& context)
+namespace {
+
+LoadedSurface dressedSurface(const SceneDescription& scene, Surface measured, const Context& context)
 {
     LoadedSurface loaded;
     if (isMeshFile(scene.onto)) {
         loaded.mesh = std::make_shared<const Mesh>(loadMesh(scene.onto));
     }
-    loaded.surface = drawnSurfaceOf(scene, loadMeasured(scene, fits), context);
+    loaded.surface = drawnSurfaceOf(scene, std::move(measured), context);
     return loaded;
+}
+
+} // namespace
+
+LoadedSurface loadSurfaceOrMesh(const SceneDescription& scene, const fs::path& fits, const Context& context)
+{
+    return dressedSurface(scene, loadMeasured(scene, fits), context);
 }
 
 std::unique_ptr<MeshRaster> meshRasterFor(const Context& context, std::shared_ptr<const Mesh> mesh,
@@ -237,12 +246,21 @@ void drawMesh(MeshRaster& raster, const SceneDescription& scene, Surface& surfac
     }
 }
 
-Surface loadDrawnSurface(const SceneDescription& scene, const std::filesystem::path& fits, const Context& context)
+namespace {
+
+void drawMeshOnce(const SceneDescription& scene, const Context& context, LoadedSurface& loaded)
 {
-    LoadedSurface loaded = loadSurfaceOrMesh(scene, fits, context);
     if (loaded.mesh) {
         drawMesh(*meshRasterFor(context, loaded.mesh, scene), scene, loaded.surface);
     }
+}
+
+} // namespace
+
+Surface loadDrawnSurface(const SceneDescription& scene, const std::filesystem::path& fits, const Context& context)
+{
+    LoadedSurface loaded = loadSurfaceOrMesh(scene, fits, context);
+    drawMeshOnce(scene, context, loaded);
     return std::move(loaded.surface);
 }
 
@@ -268,11 +286,9 @@ Scene loadScene(const SceneDescription& description, const std::filesystem::path
     scene.view = viewDirectionOf(description);
     Surface measured = loadMeasured(description, fits);
     const bool hasResidual = !measured.residual.empty();
-    scene.surface = drawnSurfaceOf(description, std::move(measured), context);
-    if (isMeshFile(description.onto)) {
-        const auto mesh = std::make_shared<const Mesh>(loadMesh(description.onto));
-        drawMesh(*meshRasterFor(context, mesh, description), description, scene.surface);
-    }
+    LoadedSurface loaded = dressedSurface(description, std::move(measured), context);
+    drawMeshOnce(description, context, loaded);
+    scene.surface = std::move(loaded.surface);
     requireResidual(scene.surface, scene.view, description.residual);
     SceneDescription lit = description;
     resolveCaptured(lit, scene.surface.lights);

@@ -36,7 +36,7 @@ struct LoadedSurface {
     std::shared_ptr<const Mesh> mesh; // null: the surface has its pixels
 };
 
-// As loadDrawnSurface, without using the device.
+// As loadDrawnSurface, without drawing a mesh.
 LoadedSurface loadSurfaceOrMesh(const SceneDescription& scene, const std::filesystem::path& fits,
                                 const Context& context);
 

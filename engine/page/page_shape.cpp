@@ -20,8 +20,6 @@ namespace {
 constexpr const char* kShapes = "normals";
 constexpr const char* kFactors = "albedo factors and labels";
 constexpr const char* kMaterials = "materials";
-constexpr const char* kResidual = "residual layer";
-constexpr const char* kShadows = "cast shadows";
 
 // One shape's pixels as planes of the crop.
 class Planes {
@@ -92,7 +90,7 @@ nlohmann::json describeResidual(const ResidualLayer& layer, const Planes& planes
                            {"spacing", meanSpacing(points)},
                            {"hull", nlohmann::json::array()},
                            {"nodes", nlohmann::json::array()},
-                           {"weights", planes.addBytes(kResidual, std::as_bytes(std::span(layer.weights)))},
+                           {"weights", planes.addBytes(kResidualPart, std::as_bytes(std::span(layer.weights)))},
                            {"planes", nlohmann::json::array()}};
     const LightHull hull(points);
     for (const glm::vec2& corner : hull.corners()) {
@@ -103,7 +101,7 @@ nlohmann::json describeResidual(const ResidualLayer& layer, const Planes& planes
     }
     for (int k = 0; k < layer.components; ++k) {
         const size_t first = k / kComponentsPerTexel * layer.pixelCount();
-        json["planes"].push_back(planes.add(kResidual, [&](size_t pixel) {
+        json["planes"].push_back(planes.add(kResidualPart, [&](size_t pixel) {
             return layer.codes[(first + pixel) * kComponentsPerTexel + k % kComponentsPerTexel];
         }));
     }
@@ -114,7 +112,7 @@ nlohmann::json describeHorizon(const HorizonMap& horizon, const Planes& planes)
 {
     nlohmann::json json = nlohmann::json::array();
     for (int azimuth = 0; azimuth < horizon.azimuths; ++azimuth) {
-        json.push_back(planes.add(kShadows, [&](size_t pixel) { return horizon.at(azimuth, pixel); }));
+        json.push_back(planes.add(kShadowsPart, [&](size_t pixel) { return horizon.at(azimuth, pixel); }));
     }
     return json;
 }
@@ -132,7 +130,7 @@ nlohmann::json describePlaces(const Surface& surface, const Planes& planes)
         }
     }
     const ObjectExtent extent = extentOf(surface.normals);
-    const glm::vec4 viewpoint = viewpointOf(surface, {0, 0, 1});
+    const glm::vec4 viewpoint = viewpointOf(surface, kFrontView);
     const float step = std::max(high - low, 1e-6f) / kSteps;
     const size_t plane = planes.add("heights", [&](size_t pixel) {
         return static_cast<uint16_t>(std::lround((std::clamp(places[pixel].z, low, high) - low) / step));
@@ -165,6 +163,17 @@ PageCrop cropOf(const NormalMap& normals)
     left = std::max(0, left - margin), top = std::max(0, top - margin);
     right = std::min(normals.width, right + margin), bottom = std::min(normals.height, bottom + margin);
     return {left, top, right - left, bottom - top};
+}
+
+Image cropped(const Image& picture, const PageCrop& crop)
+{
+    Image part(crop.width, crop.height, 3);
+    for (int y = 0; y < crop.height; ++y) {
+        for (int x = 0; x < crop.width; ++x) {
+            part.setRgb(x, y, picture.rgb(crop.x + x, crop.y + y));
+        }
+    }
+    return part;
 }
 
 nlohmann::json describeShape(const std::string& name, const Surface& surface, const ShapeContent& content,

@@ -13,6 +13,11 @@ struct PageCrop {
     int x = 0, y = 0, width = 0, height = 0; // pixels, from the top left
 };
 PageCrop cropOf(const NormalMap& normals);
+Image cropped(const Image& picture, const PageCrop& crop); // of three channels
+
+// Kinds of parts, as a page's shares name them.
+inline constexpr const char* kResidualPart = "residual layer";
+inline constexpr const char* kShadowsPart = "cast shadows";
 
 // Which arrays a shape has.
 struct ShapeContent {

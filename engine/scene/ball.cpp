@@ -17,13 +17,7 @@
 
 namespace nacre {
 
-namespace {
-
-constexpr glm::vec3 kView(0, 0, 1);
-
-} // namespace
-
-Image materialBall(const BrdfModel& model, std::span<const Light> lights, int size, int threads)
+Image materialBall(const LitAndSeen& f, std::span<const Light> lights, int size, int threads)
 {
     const NormalMap sphere = sphereNormalMap(size);
     Image picture(size, size, 3);
@@ -32,12 +26,19 @@ Image materialBall(const BrdfModel& model, std::span<const Light> lights, int si
             const glm::vec3 n = sphere.normals[i];
             if (sphere.confidence[i] > 0) {
                 const glm::vec3 radiance =
-                    radianceUnder(lights, n, [&](const glm::vec3& l) { return evaluate(model, n, l, kView); });
+                    radianceUnder(lights, n, [&](const glm::vec3& l) { return f(n, l, kFrontView); });
                 std::copy_n(&radiance.x, 3, &picture.values[3 * i]);
             }
         }
     });
     return picture;
+}
+
+Image materialBall(const BrdfModel& model, std::span<const Light> lights, int size, int threads)
+{
+    return materialBall(
+        [&](const glm::vec3& n, const glm::vec3& l, const glm::vec3& v) { return evaluate(model, n, l, v); }, lights,
+        size, threads);
 }
 
 Image materialThumbnail(const BrdfModel& model, int size)
@@ -78,7 +79,7 @@ Ball makeBall(const BrdfTable& table, std::span<const Light> lights, int size, i
                 const glm::vec2 texel((x + 0.5f) / size, (y + 0.5f) / size);
                 const glm::vec3 n = normalFromBallTexel(texel, static_cast<float>(size));
                 ball.radiance.setRgb(x, y, radianceUnder(lights, n, [&](const glm::vec3& l) {
-                                         return evaluateTable(table, n, l, kView).value;
+                                         return evaluateTable(table, n, l, kFrontView).value;
                                      }));
             }
         }

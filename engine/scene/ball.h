@@ -1,4 +1,5 @@
 #pragma once
+#include <functional>
 #include <span>
 
 #include <glm/geometric.hpp>
@@ -26,6 +27,9 @@ template <class Brdf> glm::vec3 radianceUnder(std::span<const Light> lights, con
 // Linear radiance of a ball of the material that fills a square picture, seen from the front, black around it. The
 // model is asked itself, so that a small picture needs no table.
 Image materialBall(const BrdfModel& model, std::span<const Light> lights, int size, int threads = 0);
+// The same of any f at the normal, the light's direction and the view.
+using LitAndSeen = std::function<glm::vec3(const glm::vec3& n, const glm::vec3& l, const glm::vec3& v)>;
+Image materialBall(const LitAndSeen& f, std::span<const Light> lights, int size, int threads = 0);
 
 // How lists show a material: under the key light in dim even surroundings, which come as the directional albedo, so
 // that the highlights of mirrors are not those of single lights.

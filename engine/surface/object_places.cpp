@@ -84,7 +84,7 @@ std::vector<glm::vec3> pixelPlaces(const Surface& surface)
     const ObjectExtent extent = extentOf(pixels, normals.width);
     const bool hasHeight = !surface.height.values.empty();
     const float plane = hasHeight ? outlineHeight(normals, surface.height) : 0.0f;
-    const glm::vec4 viewpoint = viewpointOf(surface, {0, 0, 1});
+    const glm::vec4 viewpoint = viewpointOf(surface, kFrontView);
     std::vector<glm::vec3> places(normals.normals.size(), glm::vec3(0));
     for (const uint32_t pixel : pixels) {
         const uint32_t column = pixel % static_cast<uint32_t>(normals.width),
@@ -100,7 +100,7 @@ std::vector<glm::vec3> pixelPlaces(const Surface& surface)
 Image heightInPicture(const Surface& surface)
 {
     Image height = surface.height;
-    const glm::vec4 viewpoint = viewpointOf(surface, {0, 0, 1});
+    const glm::vec4 viewpoint = viewpointOf(surface, kFrontView);
     if (viewpoint.w == 0) {
         return height;
     }
@@ -108,7 +108,8 @@ Image heightInPicture(const Surface& surface)
     const auto width = static_cast<float>(extentOf(normals).width);
     const float plane = outlineHeight(normals, height);
     for (float& z : height.values) {
-        z = width * heightInPicture(viewpoint, (z - plane) / width);
+        const glm::vec4 image = pointInPicture(viewpoint, {0, 0, (z - plane) / width, 1});
+        z = width * image.z / image.w;
     }
     return height;
 }

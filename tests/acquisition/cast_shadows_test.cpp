@@ -15,6 +15,7 @@
 #include "engine/surface/horizon.h"
 #include "engine/surface/object_places.h"
 #include "shared/glsl.h"
+#include "shared/lens.h"
 #include "tests/support/ray_cast.h"
 
 namespace nacre {
@@ -118,12 +119,11 @@ LitGrid placedGrid(std::optional<float> lightDistance, std::optional<glm::dvec3>
                 grid.states.push_back(test::isHidden(height, camera, x, y, light) ? LightState::cast : LightState::lit);
             }
         }
-        // (X, w) -> (X - axis w, w - X.z / d), and the axis added again.
-        const glm::dvec3 axis = camera ? glm::dvec3(camera->x, camera->y, 0) : glm::dvec3(0);
-        const glm::dvec3 fromAxis = glm::dvec3(light) - light.w * axis;
-        const double w = light.w - (camera ? fromAxis.z / camera->z : 0);
-        const glm::dvec3 first(-31.5, 31.5, 0);
-        grid.lights.emplace_back(glm::vec3(fromAxis + w * (axis - first)), static_cast<float>(w));
+        const float nearness = camera ? static_cast<float>(1 / glm::length(*camera)) : 0.0f;
+        const glm::vec4 viewpoint(camera ? glm::vec3(glm::normalize(*camera)) : kFrontView, nearness);
+        const glm::vec4 place = pointInPicture(viewpoint, glm::vec4(light));
+        const glm::vec3 first(-31.5f, 31.5f, 0);
+        grid.lights.emplace_back(glm::vec3(place) - place.w * first, place.w);
     }
     grid.cameraDistance = camera ? camera->z : grid.cameraDistance;
     return grid;

@@ -106,17 +106,6 @@ std::string hashOf(const std::vector<Light>& lights, float exposure, const std::
     return fmt::format("#light={}&exposure={}&{}", text, exposure, more);
 }
 
-Image cropped(const Image& picture, const PageCrop& crop)
-{
-    Image part(crop.width, crop.height, 3);
-    for (int y = 0; y < crop.height; ++y) {
-        for (int x = 0; x < crop.width; ++x) {
-            part.setRgb(x, y, picture.rgb(crop.x + x, crop.y + y));
-        }
-    }
-    return part;
-}
-
 PageState stateOf(const Surface& surface, std::vector<Light> lights, const std::string& more, Show show = Show::picture)
 {
     constexpr float kStops = 0.5f;

@@ -109,7 +109,8 @@ TEST(Lens, RaysStayStraightInThePicturesScene)
             EXPECT_NEAR(glm::distance(glm::normalize(image(place + t * l) - image(place)), towards), 0, 2e-4) << t;
         }
     }
-    EXPECT_FLOAT_EQ(image(place).z, heightInPicture(viewpoint, place.z));
+    const glm::vec4 mapped = pointInPicture(viewpoint, glm::vec4(place, 1));
+    EXPECT_NEAR(glm::distance(glm::vec3(mapped) / mapped.w, image(place)), 0, 1e-6);
     EXPECT_EQ(directionInPicture({0, 0, 1, 0}, place, {0.6f, 0, 0.8f}), glm::vec3(0.6f, 0, 0.8f));
 }
 
