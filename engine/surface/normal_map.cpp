@@ -19,6 +19,7 @@ namespace {
 // Normals shorter than this in n = 2 v - 1 are no normals but a flat background.
 constexpr float kShortestNormal = 0.5f;
 // A normal map's lengths are about 1, but for 8-bit codes and filtering; a photograph's are anything.
+constexpr float kRounding = 1e-6f; // of a unit vector's length
 constexpr float kUnitTolerance = 0.1f;
 constexpr float kLeastUnitShare = 0.5f;
 
@@ -83,7 +84,7 @@ NormalMap loadNormalMap(const std::filesystem::path& file, NormalY normalY)
         if (black || size < kShortestNormal || confidence <= 0) {
             continue;
         }
-        map.normals[i] = n / size;
+        map.normals[i] = !coded && std::abs(size - 1) < kRounding ? n : n / size; // what was saved is what is loaded
         map.confidence[i] = std::min(confidence, 1.0f);
         ++found;
         unit += std::abs(size - 1) < kUnitTolerance;

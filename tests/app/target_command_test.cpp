@@ -72,6 +72,27 @@ TEST_F(TargetCommandTest, AMeshTakesAMaterial)
     EXPECT_NEAR(loadImage(path("a.exr")).at(30, 20), 0.5 / 3.14159265 * 2, 1e-3);
 }
 
+// A mesh that is drawn at once, not turned, is the target that was made of it; turned it is another.
+TEST_F(TargetCommandTest, MeshesAreDrawnAsTheirTargetsAre)
+{
+    const std::string mesh = write("roof.obj", "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nv 0.3 0.1 0.7\n"
+                                               "f 1 2 5\nf 2 3 5\nf 3 4 5\nf 4 1 5\n");
+    ASSERT_EQ(target(mesh, {"--size", "60x40"}).exitCode, 0);
+    const auto drawn = [&](const std::vector<std::string>& more) {
+        std::vector<std::string> arguments = {"render",      "--material", "ggx:diffuse=0.3;alpha=0.3",
+                                              "--light",     "0.3,0.4,1",  "-o",
+                                              path("a.exr"), "--force"};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        const ProgramRun run = runNacre(arguments);
+        EXPECT_EQ(run.exitCode, 0) << run.err;
+        return loadImage(path("a.exr")).values;
+    };
+    const std::vector<float> still = drawn({"--onto", mesh, "--size", "60x40"});
+    EXPECT_EQ(still, drawn({"--onto", path("new.nacre")}));
+    EXPECT_EQ(still, drawn({"--onto", mesh, "--size", "60x40", "--turn", "360,0"}));
+    EXPECT_NE(still, drawn({"--onto", mesh, "--size", "60x40", "--turn", "20,0"}));
+}
+
 TEST_F(TargetCommandTest, WithoutAMaterialRenderSaysWhatIsMissing)
 {
     ASSERT_EQ(target(write("tile.obj", kSquare), {"--size", "60x40"}).exitCode, 0);
