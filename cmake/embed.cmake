@@ -13,6 +13,7 @@ function(embed_texts target header)
     DEPENDS ${files} "${NACRE_EMBED_SCRIPT}"
     COMMENT "Embedding ${header}"
     VERBATIM)
+  add_custom_target(${target}_texts DEPENDS "${out_dir}/${header}")
   target_sources(${target} PRIVATE "${out_dir}/${header}")
   target_include_directories(${target} PRIVATE "${out_dir}")
 endfunction()

@@ -20,6 +20,6 @@ sources=$(for source in $changed; do [ ! -f "$source" ] || echo "$source"; done)
 count=$(wc -l <<<"$sources")
 [ "$count" -le "$most" ] || echo "clang-tidy looks at $most of $count sources that changed; scripts/tidy.sh --all looks at every one" >&2
 cmake --preset tidy >/dev/null
-cmake --build --preset tidy --target nacre_gpu_shaders nacre_target_shaders >/dev/null
+cmake --build --preset tidy --target nacre_gpu_shaders nacre_target_shaders nacre_scene_texts >/dev/null
 shuf --random-source=<(yes) -n "$most" <<<"$sources" |
     xargs -P "$(nproc)" -n 1 clang-tidy -p build/tidy --quiet --checks='-clang-analyzer-*' --warnings-as-errors='bugprone-*' 2>/dev/null

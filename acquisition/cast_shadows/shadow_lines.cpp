@@ -5,6 +5,7 @@
 #include <optional>
 
 #include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
 
 namespace nacre {
 

@@ -178,7 +178,8 @@ std::vector<Light> placedLights(const Capture& capture, const std::vector<size_t
 // The pixel's ray meets the plane at (u, v, 0) from the axis; the point is on it at the height given.
 LocalFrame frameAt(const NearField& near, uint32_t pixel, int width, float height)
 {
-    const double x = pixel % static_cast<uint32_t>(width) + 0.5, y = pixel / static_cast<uint32_t>(width) + 0.5;
+    const uint32_t column = pixel % static_cast<uint32_t>(width), row = pixel / static_cast<uint32_t>(width);
+    const double x = column + 0.5, y = row + 0.5;
     LocalFrame frame;
     if (std::isinf(near.cameraDistance)) {
         frame.place = glm::vec3(x - near.origin.x, near.origin.y - y, height);

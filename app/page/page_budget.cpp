@@ -6,6 +6,8 @@
 #include <optional>
 
 #include <fmt/format.h>
+#include <glm/geometric.hpp>
+#include <nlohmann/json.hpp>
 
 #include "engine/files/error.h"
 #include "engine/files/measures.h"

@@ -150,7 +150,8 @@ TEST(GrazingRay, GoesFromItsPixelPastTheOtherToTheLight)
         height[i] = 5 + 5 * std::sin(0.37 * static_cast<double>(i));
     }
     const auto placeOf = [&](uint32_t pixel, double q, bool hasLens) {
-        const glm::dvec2 seen(pixel % kSide - 31.5, 31.5 - pixel / kSide), axis(kCamera);
+        const uint32_t column = pixel % kSide, row = pixel / kSide;
+        const glm::dvec2 seen(column - 31.5, 31.5 - row), axis(kCamera);
         const double z = hasLens ? kCamera.z * (1 - std::exp(-q / kCamera.z)) : q;
         return hasLens ? glm::dvec3(axis + (seen - axis) * (1 - z / kCamera.z), z) : glm::dvec3(seen, z);
     };

@@ -54,8 +54,8 @@ Image photographUnder(const Light& light, const Image& mirror, float table)
     for (int y = 0; y < kHeight; ++y) {
         for (int x = 0; x < kWidth; ++x) {
             const double reach = 0.47 * kSphere / light.direction.z; // where the sphere's shadow has its middle
-            const double dx = x - kLeft - kSphere / 2 + reach * light.direction.x;
-            const double dy = y - kTop - kSphere / 2 - reach * light.direction.y;
+            const double dx = x - kLeft - kSphere / 2.0 + reach * light.direction.x;
+            const double dy = y - kTop - kSphere / 2.0 - reach * light.direction.y;
             const bool shadow = std::hypot(dx, dy) < 0.47 * kSphere;
             picture.setRgb(x, y, glm::vec3((shadow ? 0.2f : 1.0f) * table * light.direction.z));
         }
@@ -195,7 +195,8 @@ TEST(CircleSearch, FindsDiscsDarkerAndBrighterThanTheirGround)
     for (const auto& [ball, ground] : {std::pair(0.1f, 0.6f), std::pair(0.7f, 0.2f), std::pair(0.01f, 0.0f)}) {
         const std::vector<uint8_t> disc = discMask(120, 100, truth);
         Image picture(120, 100, 1);
-        std::transform(disc.begin(), disc.end(), picture.values.begin(), [&](bool in) { return in ? ball : ground; });
+        std::transform(disc.begin(), disc.end(), picture.values.begin(),
+                       [ball = ball, ground = ground](bool in) { return in ? ball : ground; });
         picture.at(60, 50) = 0.9f; // a highlight
         const std::optional<Circle> found = findCircle(picture);
         ASSERT_TRUE(found);

@@ -249,7 +249,8 @@ Image readBack(const Context& context, const Texture& texture)
     Image picture(static_cast<int>(extent.width), static_cast<int>(extent.height), 3);
     const auto* codes = static_cast<const uint8_t*>(buffer.mapped());
     for (size_t i = 0; i < picture.values.size(); ++i) {
-        picture.values[i] = static_cast<float>(codes[i / 3 * 4 + i % 3]) / 255.0f;
+        const size_t code = 4 * (i / 3) + i % 3;
+        picture.values[i] = static_cast<float>(codes[code]) / 255.0f;
     }
     return picture;
 }
