@@ -122,7 +122,8 @@ public:
     std::optional<float> risePerStep(const PixelLine& line, uint32_t pixel, double z)
     {
         const auto width = static_cast<uint32_t>(grid_.normals.width);
-        const glm::vec3 p(pixel % width, -static_cast<float>(pixel / width), z);
+        const uint32_t column = pixel % width, row = pixel / width;
+        const glm::vec3 p(column, -static_cast<float>(row), z);
         const glm::vec3 towards = glm::vec3(light_) - light_.w * p;
         const float across = glm::length(glm::vec2(towards));
         if (light_.w != 0) {

@@ -29,7 +29,8 @@ template <class Shade> Image spherePicture(int width, int height, const Circle& 
         for (int x = 0; x < width; ++x) {
             glm::vec3 sum(0);
             for (int s = 0; s < 16; ++s) {
-                const glm::vec3 n = sphereNormal(circle, x + (s % 4 + 0.5) / 4, y + (s / 4 + 0.5) / 4);
+                const int column = s % 4, row = s / 4;
+                const glm::vec3 n = sphereNormal(circle, x + (column + 0.5) / 4, y + (row + 0.5) / 4);
                 sum += n.z > 0 ? shade(n) : glm::vec3(0);
             }
             image.setRgb(x, y, sum / 16.0f);
