@@ -5,33 +5,10 @@
 
 #include <fmt/format.h>
 
+#include "engine/files/markup.h"
+
 namespace nacre {
 namespace {
-
-// For attributes between double quotes. Control characters, which XML 1.0 does not know, become spaces.
-std::string escaped(const std::string& text)
-{
-    std::string xml;
-    for (const char c : text) {
-        switch (c) {
-        case '&':
-            xml += "&amp;";
-            break;
-        case '<':
-            xml += "&lt;";
-            break;
-        case '>':
-            xml += "&gt;";
-            break;
-        case '"':
-            xml += "&quot;";
-            break;
-        default:
-            xml += static_cast<unsigned char>(c) < ' ' ? ' ' : c;
-        }
-    }
-    return xml;
-}
 
 // MaterialX names are ASCII letters, digits and underscores, and begin with no digit.
 std::string nodeName(const std::string& text, std::set<std::string>& taken)
