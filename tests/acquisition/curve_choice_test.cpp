@@ -43,7 +43,7 @@ Capture photographsAs(const TempFolder& folder, const std::string& extension, bo
     return loadCapture(folder / "p", capture);
 }
 
-TEST(CurveChoice, PhotographsTellBothWays)
+TEST(CurveChoiceSlow, PhotographsTellBothWays)
 {
     for (const bool encoded : {false, true}) {
         const TempFolder folder;
@@ -69,7 +69,7 @@ TEST(CurveChoice, WarningsOfLambertNameAnAssumedCurveFirst)
     EXPECT_EQ(findings[1].text, "bright");
 }
 
-TEST(CurveChoice, OfRealCapturesIsTheRightOne)
+TEST(CurveChoiceSlow, OfRealCapturesIsTheRightOne)
 {
     NACRE_REQUIRE_DATA("found/nike");
     for (const char* name : {"found/nike", "psm/horse"}) {

@@ -48,7 +48,7 @@ Judged judgedLobes(ExchangeFormat format, const LobeShape& shape, const LobeColo
 }
 
 // The refined grid stops within a percent of the roughness.
-TEST(LobeFit, FindsTheParametersThatMadeTheData)
+TEST(LobeFitSlow, FindsTheParametersThatMadeTheData)
 {
     const LobeShape plastic{.roughness = 0.42f}, metal{.roughness = 0.3f, .metallic = 1};
     const LobeColours coloured{{0.5f, 0.3f, 0.1f}, glm::vec3(0.04f), {}}, gold{{}, {0.9f, 0.7f, 0.3f}, {}};
@@ -68,7 +68,7 @@ TEST(LobeFit, FindsTheParametersThatMadeTheData)
     }
 }
 
-TEST(LobeFit, ExtensionsAreTakenWhereTheyPay)
+TEST(LobeFitSlow, ExtensionsAreTakenWhereTheyPay)
 {
     const Judged plain =
         judgedLobes(ExchangeFormat::gltf, {.roughness = 0.4f}, {glm::vec3(0.4f), glm::vec3(0.04f), {}});
@@ -82,7 +82,7 @@ TEST(LobeFit, ExtensionsAreTakenWhereTheyPay)
     EXPECT_NEAR(extended.colours.specular.x, 0.15f, 0.01f);
 }
 
-TEST(LobeFit, SaysWhereNoParametersComeNear)
+TEST(LobeFitSlow, SaysWhereNoParametersComeNear)
 {
     const Judged back([](const glm::vec3&, const glm::vec3& l, const glm::vec3& v) {
         return glm::vec3(std::pow(std::max(glm::dot(l, v), 0.0f), 200.0f)); // a reflector that sends light back

@@ -75,7 +75,7 @@ TEST(ModelLadder, SaysNothingWhereNothingIsCovered)
     EXPECT_FALSE(ladder.taken);
 }
 
-TEST(LobeFit, FindsTheLobeThatMadeTheData)
+TEST(LobeFitSlow, FindsTheLobeThatMadeTheData)
 {
     AbcModel truth;
     truth.kD = {0.4f, 0.3f, 0.1f};
