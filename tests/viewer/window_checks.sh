@@ -37,13 +37,34 @@ state_of() { echo "${1%.png}.json"; }
 holds() { grep -qF -- "$2" "$(state_of "$1")"; }
 lacks() { ! holds "$@"; }
 differs() { ! cmp -s "$1" "$2"; }
-grab() { import -window root "$work/$1.png"; }
+# The screen of 1280x720 without its status line, whose words come and go by themselves.
+grab() { import -window root -crop 1280x694+0+0 +repage "$work/$1.png"; }
 # Waits until the screen is another than BEFORE.png, and keeps it as AFTER.png.
 changes() { # BEFORE AFTER SECONDS
     for _ in $(seq $((10 * $3))); do
         sleep 0.05
         grab "$2"
         cmp -s "$work/$1.png" "$work/$2.png" || return 0
+    done
+    return 1
+}
+# Waits until two looks in a row are the same, and keeps the screen as NAME.png.
+settles() { # NAME
+    grab "$1"
+    for _ in $(seq 100); do
+        cp "$work/$1.png" "$work/look.png"
+        sleep 0.1
+        grab "$1"
+        cmp -s "$work/look.png" "$work/$1.png" && return
+    done
+    return 1
+}
+# Waits until the screen is BEFORE.png again; keeps the last look as AFTER.png.
+returns_to() { # BEFORE AFTER SECONDS
+    for _ in $(seq $((10 * $3))); do
+        grab "$2"
+        cmp -s "$work/$1.png" "$work/$2.png" && return
+        sleep 0.05
     done
     return 1
 }
