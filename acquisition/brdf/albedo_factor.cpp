@@ -2,11 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 
 #include <glm/geometric.hpp>
 
-#include "acquisition/brdf/light_slices.h"
+#include "acquisition/brdf/pixel_prediction.h"
 #include "engine/files/parallel_for.h"
 
 namespace nacre {
@@ -26,51 +25,6 @@ glm::vec3 colourOf(std::span<const glm::vec3> radiance, const Verdict* verdicts,
 }
 
 constexpr int kRefitRounds = 4;
-
-// Of one pixel: what it shows and what the table predicts for a factor of 1, both for irradiance 1.
-struct PixelPrediction {
-    std::vector<glm::vec3> observed, predicted;
-    float limit = 0; // of a miss
-};
-
-// Answers what a normal shows under each of a pixel's lights: f.
-using TableUnderLights =
-    std::function<void(const glm::vec3& normal, std::span<const Light> lights, std::span<glm::vec3> values)>;
-
-TableUnderLights tableUnder(const LocalLights& lights, const BrdfTable& table)
-{
-    if (lights.areDistant() && table.domain.coordinates == kHalfDifference) {
-        return [slices = LightSlices(table, lights.reference())](const glm::vec3& normal, std::span<const Light>,
-                                                                 std::span<glm::vec3> values) {
-            slices.evaluate(normal, values);
-        };
-    }
-    return [&table](const glm::vec3& normal, std::span<const Light> own, std::span<glm::vec3> values) {
-        for (size_t i = 0; i < own.size(); ++i) {
-            values[i] = evaluateTable(table, normal, own[i].direction, {0, 0, 1}).value;
-        }
-    };
-}
-
-bool predictPixel(const Observations& block, size_t p, const glm::vec3& normal, std::span<const Light> lights,
-                  const TableUnderLights& table, PixelPrediction& pixel)
-{
-    pixel.observed.clear();
-    pixel.predicted.resize(lights.size());
-    table(normal, lights, pixel.predicted);
-    std::vector<float> greys;
-    for (size_t i = 0; i < lights.size(); ++i) {
-        const float nDotL = glm::dot(normal, lights[i].direction);
-        const glm::vec3 observed = block.radianceOf(p)[i] / lights[i].irradiance;
-        greys.push_back(greyOf(observed));
-        if (nDotL > 0 && !block.saturatedOf(p)[i]) {
-            pixel.predicted[pixel.observed.size()] = pixel.predicted[i] * nDotL;
-            pixel.observed.push_back(observed);
-        }
-    }
-    pixel.limit = kRefitLimit * brightLevel(greys);
-    return pixel.limit > 0;
-}
 
 glm::vec3 refittedFactor(const PixelPrediction& pixel, glm::vec3 factor)
 {

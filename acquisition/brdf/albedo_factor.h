@@ -16,10 +16,9 @@ std::vector<glm::vec3> albedoFactors(const Observations& block, const NormalBloc
                                      const std::vector<Light>& lights);
 
 // Fits each pixel's factor anew to what the material's own table predicts, channel by channel: reweighted least squares
-// whose weights fall linearly to zero where the prediction misses by kRefitLimit of the pixel's bright level, so that
-// cast shadows and interreflections say nothing. `albedo` holds the factors to start from, over whole photographs;
-// pixels without one, without a normal, or that the table does not explain keep what they have.
-constexpr float kRefitLimit = 0.225f;
+// whose weights fall linearly to zero where the prediction misses by kRefitLimit (pixel_prediction.h) of the pixel's
+// bright level, so that cast shadows and interreflections say nothing. `albedo` holds the factors to start from, over
+// whole photographs; pixels without one, without a normal, or that the table does not explain keep what they have.
 void refitAlbedo(const Observations& block, const NormalMap& normals, const LocalLights& lights, const BrdfTable& table,
                  int threads, Image& albedo);
 

@@ -75,6 +75,11 @@ glm::ivec3 tableSize(const TableDomain& domain)
     return {90, std::max(2, static_cast<int>(std::ceil(domain.thetaDMax * kRadian)) + 1), 23};
 }
 
+glm::ivec3 coarseTableSize(const TableDomain& domain)
+{
+    return glm::max((tableSize(domain) + 1) / 2, glm::ivec3(2));
+}
+
 BakedBrdf bakeBrdf(const BrdfSamples& samples, const InterpolationOptions& interpolation, const BakeOptions& options)
 {
     return bakeBrdf(samples, makeInterpolant(samples, interpolation), options);

@@ -32,6 +32,9 @@ TableDomain tableDomain(const std::vector<Light>& lights, const BakeOptions& opt
 // which f changes least. Natural: 90 x 90 x 90.
 glm::ivec3 tableSize(const TableDomain& domain);
 
+// Half of them: for a table of a few thousand samples, or one that others are made by.
+glm::ivec3 coarseTableSize(const TableDomain& domain);
+
 struct BakedBrdf {
     BrdfTable table; // confidence 1 where a sample lies within one texel's diagonal, falling as the distance grows
     Coverage coverage;

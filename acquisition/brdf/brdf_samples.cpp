@@ -5,7 +5,9 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "acquisition/brdf/pixel_prediction.h"
 #include "engine/files/error.h"
+#include "engine/files/measures.h"
 #include "shared/shading.h"
 
 namespace nacre {
@@ -70,8 +72,41 @@ void gatherSamples(const Observations& block, const NormalBlock& normals, std::s
             } else {
                 samples.unit.push_back(unitFromDirections(samples.domain, normal, met[i].direction, kView));
                 samples.values.push_back(brdfFromRadiance(radiance[i], albedo[p] * met[i].irradiance, nDotL));
-                samples.weights.push_back(pixel.confidence * nDotL);
+                samples.weights.push_back(pixel.confidence * nDotL * greyOf(albedo[p]));
                 ++counts.used;
+            }
+        }
+    }
+}
+
+void gatherJudgedSamples(const Observations& block, const NormalMap& normals, const Image& albedo,
+                         const LocalLights& lights, const BrdfTable& table, double share, const SampleOptions& options,
+                         BrdfSamples& samples)
+{
+    const TableUnderLights under = tableUnder(lights, table);
+    PixelPrediction pixel;
+    std::vector<Light> own;
+    for (size_t p = 0; p < block.pixels.size(); ++p) {
+        const uint32_t at = block.pixels[p];
+        const glm::vec3 factor = albedo.rgb(static_cast<int>(at % albedo.width), static_cast<int>(at / albedo.width));
+        const bool black = !(glm::min(factor.x, glm::min(factor.y, factor.z)) > 0);
+        const glm::vec3 normal = lights.toLocal(at, normals.normals[at]);
+        const std::span<const Light> met = lights.of(at, own);
+        if (normals.confidence[at] <= 0 || black || scattered(at) >= share ||
+            !predictPixel(block, p, normal, met, under, pixel)) {
+            continue;
+        }
+        for (size_t j = 0; j < pixel.lights.size(); ++j) {
+            const Light& light = met[pixel.lights[j]];
+            const float nDotL = glm::dot(normal, light.direction);
+            if (nDotL >= options.leastCosine) {
+                const glm::vec3 predicted = factor * pixel.predicted[j];
+                const float miss =
+                    greyOf(pixel.observed[j] - predicted) / std::max(pixel.limit, kRefitLimit * greyOf(predicted));
+                samples.unit.push_back(unitFromDirections(samples.domain, normal, light.direction, kView));
+                samples.values.push_back(brdfFromRadiance(pixel.observed[j], factor, nDotL));
+                samples.weights.push_back(normals.confidence[at] * nDotL * greyOf(factor) /
+                                          std::sqrt(1 + 4 * miss * miss));
             }
         }
     }

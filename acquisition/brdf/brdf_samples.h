@@ -7,6 +7,9 @@
 
 #include "acquisition/near_field/local_lights.h"
 #include "acquisition/normals/normals.h"
+#include "engine/brdf/brdf_table.h"
+#include "engine/files/image.h"
+#include "engine/surface/normal_map.h"
 #include "shared/brdf_coords.h"
 
 namespace nacre {
@@ -16,7 +19,9 @@ struct BrdfSamples {
     TableDomain domain;
     std::vector<glm::vec3> unit;   // coordinates on the table's unit cube (brdf_coords.h)
     std::vector<glm::vec3> values; // f in 1/sr, up to the capture's scale factor
-    std::vector<float> weights;    // trust, > 0
+    // Trust over the standard deviation of f, > 0: noise is alike in the photographs, so that f = I / (a E n.l) has one
+    // that falls with a n.l.
+    std::vector<float> weights;
 
     size_t size() const { return values.size(); }
 };
@@ -46,6 +51,14 @@ struct SampleCounts {
 void gatherSamples(const Observations& block, const NormalBlock& normals, std::span<const glm::vec3> albedo,
                    const LocalLights& lights, double share, const SampleOptions& options, BrdfSamples& samples,
                    SampleCounts& counts);
+
+// The same of pixels whose factors and table are known by now, `albedo` over whole photographs: what the table says of
+// an observation judges it in the verdicts' place. Its square weight is that of Cauchy's distribution with a scale of
+// half of kRefitLimit, of the pixel's bright level or of what is predicted, whichever is more: a cast shadow counts
+// little, and a highlight is not lost by a table that is too low there.
+void gatherJudgedSamples(const Observations& block, const NormalMap& normals, const Image& albedo,
+                         const LocalLights& lights, const BrdfTable& table, double share, const SampleOptions& options,
+                         BrdfSamples& samples);
 
 // How far apart two configurations are, for finding neighbours.
 struct SampleMetric {

@@ -1,5 +1,7 @@
 #include "acquisition/chain/acquire.h"
 
+#include <algorithm>
+#include <iterator>
 #include <optional>
 
 #include <fmt/format.h>
@@ -173,6 +175,37 @@ void explainLeftOut(const Measurement& measurement, ObservationBlocks& blocks, S
     }
 }
 
+// Samples anew, as coarse tables of the first ones judge them; a material without any keeps its none.
+void judgeSamples(PreparedCapture& prepared, const Capture& capture, const Segmentation& segmentation,
+                  const AcquireOptions& options, StageClock& clock, const Progress& progress, NormalsAndSamples& result)
+{
+    clock.enter("samples");
+    InterpolationOptions interpolation = options.interpolation;
+    interpolation.completed = false; // it is asked where it was measured alone
+    std::vector<BrdfTable> coarse;
+    std::vector<BrdfTable*> tables;
+    for (const BrdfSamples& samples : result.gathered.samples) {
+        if (samples.size() == 0) {
+            return;
+        }
+        BakeOptions bake = options.bake;
+        bake.size = coarseTableSize(samples.domain);
+        coarse.push_back(bakeBrdf(samples, interpolation, bake).table);
+    }
+    std::transform(coarse.begin(), coarse.end(), std::back_inserter(tables), [](BrdfTable& table) { return &table; });
+    const LocalLights lights = prepared.localLights();
+    MaterialSamples judged = startSamples(capture, lights, segmentation, options.bake);
+    judged.counts = result.gathered.counts;
+    judged.albedo = std::move(result.gathered.albedo);
+    BlockWalk walk(prepared.blocks, clock, progress, "samples");
+    while (const Observations* seen = walk.next()) {
+        forEachDirect(prepared, result.chosen, *seen, options.normals.threads, [&](const Observations& block) {
+            gatherJudgedSamples(block, result.estimate.normals, lights, segmentation, tables, options, judged);
+        });
+    }
+    result.gathered = std::move(judged);
+}
+
 } // namespace
 
 NormalsAndSamples estimateAndSample(PreparedCapture& prepared, const Capture& capture, const Segmentation& segmentation,
@@ -195,6 +228,7 @@ NormalsAndSamples estimateAndSample(PreparedCapture& prepared, const Capture& ca
         });
     }
     finishEstimate(capture, result.estimate);
+    judgeSamples(prepared, capture, segmentation, options, clock, progress, result);
     return result;
 }
 

@@ -27,7 +27,8 @@ struct Acquisition {
     ResidualReport residual;
 };
 
-// Normals, and on the way samples of the BRDF with first albedo factors: the blocks are walked once for both.
+// Normals, and on the way samples of the BRDF with first albedo factors; then samples anew, which tables of the first
+// ones judge: the blocks are walked twice.
 struct NormalsAndSamples {
     NormalEstimate estimate;
     MaterialSamples gathered;

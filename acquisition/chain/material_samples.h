@@ -1,4 +1,5 @@
 #pragma once
+#include <span>
 #include <vector>
 
 #include "acquisition/chain/acquire_options.h"
@@ -19,5 +20,11 @@ MaterialSamples startSamples(const Capture& capture, const LocalLights& lights, 
 // Adds a block's samples and factors.
 void gatherSamples(const Observations& block, const NormalBlock& normals, const LocalLights& lights,
                    const Segmentation& segmentation, const AcquireOptions& options, MaterialSamples& gathered);
+
+// The same by what tables of the samples so far, one a material, say of each observation (gatherJudgedSamples of
+// brdf_samples.h). The block's factors are refitted to them first.
+void gatherJudgedSamples(const Observations& block, const NormalMap& normals, const LocalLights& lights,
+                         const Segmentation& segmentation, std::span<BrdfTable* const> tables,
+                         const AcquireOptions& options, MaterialSamples& gathered);
 
 } // namespace nacre

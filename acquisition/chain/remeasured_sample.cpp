@@ -10,9 +10,7 @@ namespace nacre {
 
 namespace {
 
-// Of the full table's texels along each axis: a table of a thousand pixels' samples is asked a thousand times.
-constexpr int kCoarser = 2;
-constexpr double kMostSamples = 40'000; // of f, as many as say the same of a table so coarse
+constexpr double kMostSamples = 40'000; // of f, as many as say the same of a coarse table
 
 void hideLights(std::span<const size_t> without, Observations& sample)
 {
@@ -64,7 +62,7 @@ std::vector<BrdfSamples> samplesOf(const Measurement& measurement, const Observa
 
 Material coarseMaterial(const BrdfSamples& samples, const InterpolationOptions& interpolation, BakeOptions options)
 {
-    options.size = glm::max((tableSize(samples.domain) + kCoarser - 1) / kCoarser, glm::ivec3(2));
+    options.size = coarseTableSize(samples.domain);
     BakedBrdf baked = bakeBrdf(samples, interpolation, options);
     return {"", std::move(baked.table), {}, {}};
 }
