@@ -161,7 +161,7 @@ Image makeSheet(const Capture& capture, const Surface& surface, const std::vecto
 }
 
 // The same to be lit in a browser.
-std::string makeDemoPage(const DemoArguments& arguments, const std::filesystem::path& folder, const Surface& surface,
+SurfacePage makeDemoPage(const DemoArguments& arguments, const std::filesystem::path& folder, const Surface& surface,
                          std::vector<PageShape> shapes)
 {
     PageArguments page;
@@ -170,7 +170,7 @@ std::string makeDemoPage(const DemoArguments& arguments, const std::filesystem::
     page.size.budget = kPageBytes;
     page.threads = arguments.threads;
     shapes.front().surface.normals = demoCloth(kPageCloth); // its yarns are most of what the page would hold
-    return pageOfSurface(page, folder / "demo.nacre", surface, std::move(shapes)).text.html;
+    return pageOfSurface(page, folder / "demo.nacre", surface, std::move(shapes));
 }
 
 void runDemo(const DemoArguments& arguments)
@@ -197,11 +197,16 @@ void runDemo(const DemoArguments& arguments)
     const std::vector<PageShape> shapes = demoShapes();
     const Image sheet = makeSheet(capture, result.surface, shapes, arguments);
     saveImage(output.temporary() / kSheet, sheet, PixelType::uint8);
-    writeTextFile(output.temporary() / kPage, makeDemoPage(arguments, output.temporary(), result.surface, shapes));
+    const SurfacePage page = makeDemoPage(arguments, output.temporary(), result.surface, shapes);
+    writeTextFile(output.temporary() / kPage, page.text.html);
     output.commit();
     if (!arguments.quiet) {
         fmt::print("{}{}{}", describeNormals(capture, result.estimate), describeBrdf(result),
                    describe(result.estimate.times));
+        fmt::print("page         {:.2f} MB\n", static_cast<double>(page.text.html.size()) / 1e6);
+        for (const std::string& line : page.lines) {
+            fmt::print("  {}\n", line);
+        }
         fmt::print("in all       {:.1f} seconds\n", watch.seconds());
     }
     for (const char* file : {kSheet, kPage}) {

@@ -234,6 +234,11 @@ Surface surfaceToExport(const ExportArguments& arguments)
     }
     if (!arguments.size.empty()) {
         const PictureSize size = sizeFromArgument("--size", arguments.size);
+        const NormalMap& own = surface.normals;
+        if (!arguments.page.file.empty() && size.width > own.width && size.height > own.height) {
+            throw usageError(fmt::format("--size {} is larger than the surface", arguments.size),
+                             fmt::format("at most {}x{} for a page", own.width, own.height));
+        }
         surface = fittedSurface(surface, size.width, size.height);
     }
     return surface;

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <optional>
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
@@ -19,16 +17,6 @@ namespace {
 
 constexpr int kJudgedSide = 192; // pixels of the pictures that tell what the page costs
 constexpr size_t kJudgedLights = 6;
-
-HorizonMap everySecondAzimuth(const HorizonMap& map)
-{
-    HorizonMap half(map.width, map.height, map.azimuths / 2);
-    for (int azimuth = 0; azimuth < half.azimuths; ++azimuth) {
-        std::copy_n(&map.codes[2 * azimuth * map.pixelCount()], map.pixelCount(),
-                    &half.codes[azimuth * map.pixelCount()]);
-    }
-    return half;
-}
 
 // How much of radiance over irradiance one code of each component is, under the captured light that it matters most
 // for.
@@ -66,24 +54,6 @@ ResidualLayer roundedLayer(const ResidualLayer& layer, float step)
     return rounded;
 }
 
-// What of an object a page leaves out where its bytes are few.
-struct Savings {
-    int azimuths = 0; // of the horizons, that are kept
-    float step = 0;   // of the residual layer (roundedLayer); 0: as stored, infinite: no layer
-
-    Surface of(const Surface& own) const
-    {
-        Surface object = own;
-        while (object.horizon.azimuths > azimuths) {
-            object.horizon = azimuths == 0 ? HorizonMap() : everySecondAzimuth(object.horizon);
-        }
-        if (step > 0 && !own.residual.empty()) {
-            object.residual = std::isinf(step) ? ResidualLayer() : roundedLayer(own.residual, step);
-        }
-        return object;
-    }
-};
-
 std::vector<Light> judgedLights(const Surface& surface)
 {
     std::vector<Light> lights;
@@ -115,68 +85,26 @@ size_t bytesOf(const std::vector<PageParts::Share>& shares, const std::string& k
     return found == shares.end() ? 0 : found->bytes;
 }
 
-// Savings of one of the two alone, with the bytes that are left of it.
-struct SizedSavings {
-    Savings savings;
-    size_t bytes = 0;
-};
-
-std::vector<SizedSavings> sized(const Surface& own, const std::vector<Savings>& savings, const char* kind)
+// The layer by the finest steps of which it has at most `bytes`; none where all have more.
+ResidualLayer layerWithin(const Surface& own, size_t bytes)
 {
-    std::vector<SizedSavings> all;
-    for (const Savings& saving : savings) {
-        PageParts parts;
-        describeShape("", saving.of(own), {true, false}, parts);
-        all.push_back({saving, bytesOf(parts.shares(), kind)});
-    }
-    return all;
-}
-
-// From all directions to none.
-std::vector<Savings> horizonSavings(const Surface& own)
-{
-    std::vector<Savings> savings;
-    for (int azimuths = own.horizon.azimuths; azimuths >= 8; azimuths /= 2) {
-        savings.push_back({azimuths, std::numeric_limits<float>::infinity()});
-    }
-    savings.push_back({0, std::numeric_limits<float>::infinity()});
-    return savings;
-}
-
-// From the layer as stored to none.
-std::vector<Savings> layerSavings(const Surface& own)
-{
-    constexpr float kFirstStep = 1.0f / 1024, kLastStep = 0.1f, kCoarser = 1.41421356f; // of the peak
+    constexpr int kSteps = 28; // from 1/1024 of the peak to an eighth, by fourth roots of 2
     const float peak = peakOverIrradiance(own);
-    std::vector<Savings> savings = {{0, 0}};
-    for (float share = kFirstStep; share < kLastStep && !own.residual.empty(); share *= kCoarser) {
-        savings.push_back({0, share * peak});
-    }
-    savings.push_back({0, std::numeric_limits<float>::infinity()});
-    return savings;
-}
-
-// The savings that are enough for `bytes` of layer and shadows together and cost least; none where nothing is enough.
-std::optional<Savings> bestSavings(const Surface& own, size_t bytes)
-{
-    const std::vector<SizedSavings> layers = sized(own, layerSavings(own), kResidualPart);
-    std::optional<Savings> best;
-    double most = 0;
-    for (const SizedSavings& horizon : sized(own, horizonSavings(own), kShadowsPart)) {
-        const auto layer = std::find_if(layers.begin(), layers.end(), [&](const SizedSavings& sizedLayer) {
-            return sizedLayer.bytes + horizon.bytes <= bytes;
-        });
-        if (layer == layers.end()) {
-            continue;
-        }
-        const Savings both{horizon.savings.azimuths, layer->savings.step};
-        const double decibels = pageDecibels(both.of(own), own);
-        if (!best || decibels > most) {
-            best = both;
-            most = decibels;
+    ResidualLayer taken;
+    Surface object = own;
+    for (int first = 0, end = kSteps; first < end;) {
+        const int middle = (first + end) / 2;
+        object.residual = roundedLayer(own.residual, peak * std::exp2(0.25f * static_cast<float>(middle) - 10));
+        PageParts parts;
+        describeShape("", object, {true, false}, parts);
+        if (bytesOf(parts.shares(), kResidualPart) > bytes) {
+            first = middle + 1;
+        } else {
+            end = middle;
+            taken = object.residual;
         }
     }
-    return best;
+    return taken;
 }
 
 } // namespace
@@ -208,15 +136,15 @@ void fitIntoBudget(PageContent& content, size_t budget)
     if (text.html.size() <= budget) {
         return;
     }
-    const size_t rest = text.html.size() - bytesOf(text.shares, kResidualPart) - bytesOf(text.shares, kShadowsPart);
-    const std::optional<Savings> savings =
-        rest < budget ? bestSavings(content.object, budget - rest) : std::optional<Savings>();
-    if (!savings) {
+    const size_t rest = text.html.size() - bytesOf(text.shares, kResidualPart);
+    if (rest > budget) {
         throw Error("", fmt::format("--budget-bytes {} is too little", budget),
                     fmt::format("{} or more; --size, fewer shapes or photographs make a page smaller", rest),
                     Error::kUsage);
     }
-    content.object = savings->of(content.object);
+    if (!content.object.residual.empty()) {
+        content.object.residual = layerWithin(content.object, budget - rest);
+    }
 }
 
 } // namespace nacre

@@ -6,8 +6,8 @@ namespace nacre {
 // dB of a page's pictures against the surface's own, both from the front under some of its captured lights.
 double pageDecibels(const Surface& page, const Surface& own);
 
-// Leaves out of the object what costs least in decibels until the page has at most `budget` bytes (0: any): shadow
-// directions, and steps of the residual layer. Throws Error (usage) where too few are left for the rest.
+// Takes steps of the residual layer until the page has at most `budget` bytes (0: any). Throws Error (usage) where too
+// few are left for the rest.
 void fitIntoBudget(PageContent& content, size_t budget);
 
 } // namespace nacre

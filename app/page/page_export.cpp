@@ -2,11 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <optional>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <glm/trigonometric.hpp>
 
 #include "app/materials/transfer_sources.h"
@@ -51,19 +48,10 @@ std::string textOf(double decibels)
 
 std::string describeLeftOut(const Surface& page, const Surface& own)
 {
-    std::vector<std::string> left;
-    if (page.residual.empty() && !own.residual.empty()) {
-        left.push_back("the residual layer");
-    } else if (page.residual.codes != own.residual.codes) {
-        left.push_back("what is weak in the residual layer");
+    if (page.residual.codes == own.residual.codes) {
+        return "";
     }
-    if (page.horizon.azimuths < own.horizon.azimuths) {
-        left.push_back(page.horizon.empty()
-                           ? "cast shadows"
-                           : fmt::format("{} of {} directions of cast shadows",
-                                         own.horizon.azimuths - page.horizon.azimuths, own.horizon.azimuths));
-    }
-    return fmt::format("{}", fmt::join(left, " and "));
+    return page.residual.empty() ? "the residual layer" : "what is weak in the residual layer";
 }
 
 // ---- what the page says of itself
@@ -199,9 +187,8 @@ void PageArguments::addTo(CLI::App& command)
         ->capture_default_str()
         ->group(group);
     command
-        .add_option(
-            "--budget-bytes", size.budget,
-            "Most bytes of the page, e.g. 1MiB: less of the residual layer and of cast shadows where it is over")
+        .add_option("--budget-bytes", size.budget,
+                    "Most bytes of the page, e.g. 1MiB: less of the residual layer where it is over")
         ->group(group);
 }
 

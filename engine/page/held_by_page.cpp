@@ -10,6 +10,7 @@
 
 #include "engine/files/error.h"
 #include "engine/scene/coverage.h"
+#include "engine/surface/object_places.h"
 #include "shared/ball.h"
 
 namespace nacre {
@@ -49,6 +50,24 @@ float albedoFromCode(uint16_t code, float largest)
 {
     const float root = static_cast<float>(code) / kAlbedoSteps;
     return largest * root * root;
+}
+
+uint16_t HeightCodes::of(float height) const
+{
+    return static_cast<uint16_t>(std::lround(std::clamp((height - low) / step, 0.0f, 65535.0f)));
+}
+
+HeightCodes heightCodes(const Surface& surface)
+{
+    constexpr float kFinest = 1.0f / 64;
+    float low = std::numeric_limits<float>::infinity(), high = -low;
+    for (size_t i = 0; i < surface.height.values.size(); ++i) {
+        if (surface.normals.confidence[i] > 0) {
+            low = std::min(low, surface.height.values[i]);
+            high = std::max(high, surface.height.values[i]);
+        }
+    }
+    return low > high ? HeightCodes{0, kFinest} : HeightCodes{low, std::max(kFinest, (high - low) / 65535)};
 }
 
 void requireHeld(const Material& material)
@@ -94,6 +113,16 @@ Surface heldByPage(Surface surface)
     const float largest = largestAlbedo(surface);
     for (float& factor : surface.albedo.values) {
         factor = albedoFromCode(albedoCode(factor, largest), largest);
+    }
+    if (!surface.height.values.empty()) {
+        const HeightCodes codes = heightCodes(surface);
+        for (size_t i = 0; i < surface.height.values.size(); ++i) {
+            float& height = surface.height.values[i];
+            height = surface.normals.confidence[i] > 0 ? codes.height(codes.of(height)) : height;
+        }
+    }
+    if (!surface.horizon.empty()) {
+        surface.horizon = horizonMap(surface.normals, heightInPicture(surface), surface.horizon.azimuths);
     }
     for (Material& material : surface.materials) {
         material = heldByPage(std::move(material));

@@ -20,6 +20,16 @@ float largestAlbedo(const Surface& surface); // 1 where the surface has no facto
 uint16_t albedoCode(float factor, float largest);
 float albedoFromCode(uint16_t code, float largest);
 
+// A height by steps of 1/64 pixel, or so coarse ones that 16 bits hold them all. That moves one
+// code of a horizon in forty by more than 1.
+struct HeightCodes {
+    float low = 0, step = 0; // pixels
+
+    uint16_t of(float height) const;
+    float height(uint16_t code) const { return low + step * static_cast<float>(code); }
+};
+HeightCodes heightCodes(const Surface& surface); // which has a height
+
 // f and its expected error as half floats. Throws Error (data), which names the material, as requireHeld does and where
 // a side has more than kMostTexelsAlong texels.
 inline constexpr int kMostTexelsAlong = 256; // of a 3D texture, which every browser has
@@ -27,8 +37,8 @@ Material heldByPage(Material material);
 // Throws where a value is not finite or beyond half floats' largest.
 void requireHeld(const Material& material);
 
-// The surface with its normals, factors and materials as stored; labels, residual layer, horizon and lights are stored
-// as they are.
+// The surface with its normals, factors, height, the horizon of that and materials as stored; labels, residual layer
+// and lights are stored as they are.
 Surface heldByPage(Surface surface);
 
 } // namespace nacre

@@ -96,13 +96,7 @@ async function decodedResidual(shape) {
     return codes;
 }
 
-async function decodedHorizons(shape) {
-    const pixels = shape.width * shape.height, codes = new Uint8Array(pixels * shape.horizon.length);
-    const planes = await Promise.all(shape.horizon.map(part => bytePlane(part, shape.width)));
-    planes.forEach((plane, k) => codes.set(plane, pixels * k));
-    return codes;
-}
-
+// In widths of the object.
 async function decodedHeights(shape) {
     const { low, step, plane } = shape.places;
     return Float32Array.from(await wordPlane(plane, shape.width), code => low + step * code);
@@ -116,10 +110,11 @@ async function decodedWeights({ weights }) {
 
 async function decodedShape(shape) {
     const nothing = Promise.resolve(null);
-    const [normals, factors, residual, horizons, heights] = await Promise.all([
+    const [normals, factors, residual, heights] = await Promise.all([
         decodedNormals(shape), shape.labels === undefined ? nothing : decodedFactors(shape),
-        shape.residual ? decodedResidual(shape) : nothing, shape.horizon ? decodedHorizons(shape) : nothing,
-        shape.places ? decodedHeights(shape) : nothing]);
+        shape.residual ? decodedResidual(shape) : nothing,
+        shape.places?.plane === undefined ? nothing : decodedHeights(shape)]);
+    const horizons = shape.azimuths ? bakedHorizons(shape, normals, heights) : null;
     if (residual) {
         shape.residual.weights = await decodedWeights(shape.residual);
     }

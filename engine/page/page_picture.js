@@ -101,7 +101,7 @@ class Painter {
                 ? this.layers(gl.RGBA8, width, height, Math.ceil(shape.residual.low.length / 4), gl.RGBA,
                     gl.UNSIGNED_BYTE, arrays.residual) : this.none.layers,
             horizons: arrays.horizons
-                ? this.layers(gl.R8, width, height, shape.horizon.length, gl.RED, gl.UNSIGNED_BYTE, arrays.horizons)
+                ? this.layers(gl.R8, width, height, shape.azimuths, gl.RED, gl.UNSIGNED_BYTE, arrays.horizons)
                 : this.none.layers,
         }));
     }
@@ -177,7 +177,7 @@ class Painter {
         gl.uniform1i(shade.at("show"), view.show);
         gl.uniform1i(shade.at("labels"), this.scene.ownMaterials);
         gl.uniform2i(shade.at("corner"), shape.x, shape.y);
-        gl.uniform1i(shade.at("azimuths"), shape.horizon ? shape.horizon.length : 0);
+        gl.uniform1i(shade.at("azimuths"), shape.azimuths ?? 0);
         gl.uniform1f(shade.at("gain"), view.gain);
         this.setPlaces(shape, view.lights);
         this.setLights(shape, view, isOwn && view.layer);

@@ -108,39 +108,21 @@ nlohmann::json describeResidual(const ResidualLayer& layer, const Planes& planes
     return json;
 }
 
-nlohmann::json describeHorizon(const HorizonMap& horizon, const Planes& planes)
-{
-    nlohmann::json json = nlohmann::json::array();
-    for (int azimuth = 0; azimuth < horizon.azimuths; ++azimuth) {
-        json.push_back(planes.add(kShadowsPart, [&](size_t pixel) { return horizon.at(azimuth, pixel); }));
-    }
-    return json;
-}
-
-// The third coordinate is stored, the others follow from the pixel.
+// The third coordinate is stored, in widths of the object; the others follow from the pixel.
 nlohmann::json describePlaces(const Surface& surface, const Planes& planes)
 {
-    constexpr float kSteps = 65535;
-    float low = 0, high = 0;
-    const std::vector<glm::vec3> places = pixelPlaces(surface);
-    for (size_t i = 0; i < places.size(); ++i) {
-        if (surface.normals.confidence[i] > 0) {
-            low = std::min(low, places[i].z);
-            high = std::max(high, places[i].z);
-        }
-    }
     const ObjectExtent extent = extentOf(surface.normals);
     const glm::vec4 viewpoint = viewpointOf(surface, kFrontView);
-    const float step = std::max(high - low, 1e-6f) / kSteps;
-    const size_t plane = planes.add("heights", [&](size_t pixel) {
-        return static_cast<uint16_t>(std::lround((std::clamp(places[pixel].z, low, high) - low) / step));
-    });
-    return {{"middle", {extent.middle.x, extent.middle.y}},
-            {"width", extent.width},
-            {"viewpoint", {viewpoint.x, viewpoint.y, viewpoint.z, viewpoint.w}},
-            {"low", low},
-            {"step", step},
-            {"plane", plane}};
+    nlohmann::json json = {{"middle", {extent.middle.x, extent.middle.y}},
+                           {"width", extent.width},
+                           {"viewpoint", {viewpoint.x, viewpoint.y, viewpoint.z, viewpoint.w}}};
+    if (!surface.height.values.empty()) {
+        const HeightCodes codes = heightCodes(surface);
+        json["low"] = (codes.low - outlineHeight(surface.normals, surface.height)) / extent.width;
+        json["step"] = codes.step / extent.width;
+        json["plane"] = planes.add("heights", [&](size_t pixel) { return codes.of(surface.height.values[pixel]); });
+    }
+    return json;
 }
 
 } // namespace
@@ -201,9 +183,10 @@ nlohmann::json describeShape(const std::string& name, const Surface& surface, co
         }
     }
     if (!surface.horizon.empty()) {
-        json["horizon"] = describeHorizon(surface.horizon, planes);
+        json["azimuths"] = surface.horizon.azimuths;
+        json["whole"] = {surface.normals.width, surface.normals.height};
     }
-    if (content.places) {
+    if (content.places || !surface.horizon.empty()) {
         json["places"] = describePlaces(surface, planes);
     }
     return json;

@@ -17,12 +17,11 @@ Image cropped(const Image& picture, const PageCrop& crop); // of three channels
 
 // Kinds of parts, as a page's shares name them.
 inline constexpr const char* kResidualPart = "residual layer";
-inline constexpr const char* kShadowsPart = "cast shadows";
 
 // Which arrays a shape has.
 struct ShapeContent {
     bool materials = false; // its own: factors, labels and residual layer
-    bool places = false;    // of its pixels, for near lights and cameras
+    bool places = false;    // of its pixels, for near lights and cameras; there in any case where it casts shadows
 };
 
 // A shape's description for the page's script, its arrays added to the parts.
