@@ -17,10 +17,16 @@ namespace nacre {
 namespace {
 
 constexpr float kMostHeld = 65504; // the largest half float
+constexpr float kMostCode = 65535;
 
 bool isHeld(const glm::vec3& f)
 {
     return std::isfinite(f.x + f.y + f.z) && std::max({f.x, f.y, f.z}) <= kMostHeld;
+}
+
+uint16_t codeOf(float steps)
+{
+    return static_cast<uint16_t>(std::lround(std::clamp(steps, 0.0f, kMostCode)));
 }
 
 } // namespace
@@ -35,26 +41,29 @@ glm::vec3 normalFromCode(const glm::u16vec2& code)
     return glm::normalize(normalFromDisc(kPackedReach * (glm::vec2(code) / kNormalSteps - 1.0f)));
 }
 
-float largestAlbedo(const Surface& surface)
+float albedoStep(const Surface& surface)
 {
-    const auto& values = surface.albedo.values;
-    return values.empty() ? 1.0f : std::max(1e-6f, *std::max_element(values.begin(), values.end()));
+    float largest = 0;
+    for (const float factor : surface.albedo.values) {
+        largest = std::max(largest, std::min(factor, kMostHeld));
+    }
+    return std::max(1.0f / 512, std::sqrt(largest) / kMostCode);
 }
 
-uint16_t albedoCode(float factor, float largest)
+uint16_t albedoCode(float factor, float step)
 {
-    return static_cast<uint16_t>(std::lround(kAlbedoSteps * std::sqrt(std::clamp(factor / largest, 0.0f, 1.0f))));
+    return codeOf(std::sqrt(std::clamp(factor, 0.0f, kMostHeld)) / step);
 }
 
-float albedoFromCode(uint16_t code, float largest)
+float albedoFromCode(uint16_t code, float step)
 {
-    const float root = static_cast<float>(code) / kAlbedoSteps;
-    return largest * root * root;
+    const float root = step * static_cast<float>(code);
+    return root * root;
 }
 
 uint16_t HeightCodes::of(float height) const
 {
-    return static_cast<uint16_t>(std::lround(std::clamp((height - low) / step, 0.0f, 65535.0f)));
+    return codeOf((height - low) / step);
 }
 
 HeightCodes heightCodes(const Surface& surface)
@@ -67,7 +76,7 @@ HeightCodes heightCodes(const Surface& surface)
             high = std::max(high, surface.height.values[i]);
         }
     }
-    return low > high ? HeightCodes{0, kFinest} : HeightCodes{low, std::max(kFinest, (high - low) / 65535)};
+    return low > high ? HeightCodes{0, kFinest} : HeightCodes{low, std::max(kFinest, (high - low) / kMostCode)};
 }
 
 void requireHeld(const Material& material)
@@ -110,9 +119,9 @@ Surface heldByPage(Surface surface)
             surface.normals.normals[i] = normalFromCode(normalCode(surface.normals.normals[i]));
         }
     }
-    const float largest = largestAlbedo(surface);
+    const float step = albedoStep(surface);
     for (float& factor : surface.albedo.values) {
-        factor = albedoFromCode(albedoCode(factor, largest), largest);
+        factor = albedoFromCode(albedoCode(factor, step), step);
     }
     if (!surface.height.values.empty()) {
         const HeightCodes codes = heightCodes(surface);

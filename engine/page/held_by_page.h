@@ -14,11 +14,11 @@ inline constexpr float kNormalSteps = 8191; // of the code, from 0 to 1
 glm::u16vec2 normalCode(const glm::vec3& normal);
 glm::vec3 normalFromCode(const glm::u16vec2& code);
 
-// An albedo factor by its square root, in ten bits from 0 to the surface's largest.
-inline constexpr float kAlbedoSteps = 1023;
-float largestAlbedo(const Surface& surface); // 1 where the surface has no factors
-uint16_t albedoCode(float factor, float largest);
-float albedoFromCode(uint16_t code, float largest);
+// An albedo factor by its square root, in steps of 1/512, or so coarse ones that 16 bits hold them all: a few dark or
+// noisy pixels have factors many times the mean's, which is 1.
+float albedoStep(const Surface& surface);
+uint16_t albedoCode(float factor, float step);
+float albedoFromCode(uint16_t code, float step);
 
 // A height by steps of 1/64 pixel, or so coarse ones that 16 bits hold them all. That moves one
 // code of a horizon in forty by more than 1.

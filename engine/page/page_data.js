@@ -72,10 +72,10 @@ async function decodedFactors(shape) {
     const labels = await bytePlane(shape.labels, shape.width);
     const values = new Float32Array(4 * labels.length).fill(1);
     if (shape.albedo) {
-        const { largest, steps, planes } = shape.albedo;
+        const { step, planes } = shape.albedo;
         (await Promise.all(planes.map(part => wordPlane(part, shape.width)))).forEach((plane, c) => {
             for (let i = 0; i < plane.length; ++i) {
-                values[4 * i + c] = largest * (plane[i] / steps) ** 2;
+                values[4 * i + c] = (step * plane[i]) ** 2;
             }
         });
     }

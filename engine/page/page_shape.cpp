@@ -72,11 +72,11 @@ nlohmann::json arrayOf(const glm::vec3& v)
 
 nlohmann::json describeFactors(const Surface& surface, const Planes& planes)
 {
-    const float largest = largestAlbedo(surface);
-    nlohmann::json json = {{"largest", largest}, {"steps", kAlbedoSteps}, {"planes", nlohmann::json::array()}};
+    const float step = albedoStep(surface);
+    nlohmann::json json = {{"step", step}, {"planes", nlohmann::json::array()}};
     for (int c = 0; c < 3; ++c) {
-        json["planes"].push_back(planes.add(
-            kFactors, [&](size_t pixel) { return albedoCode(surface.albedo.values[3 * pixel + c], largest); }));
+        json["planes"].push_back(
+            planes.add(kFactors, [&](size_t pixel) { return albedoCode(surface.albedo.values[3 * pixel + c], step); }));
     }
     return json;
 }

@@ -56,6 +56,7 @@ Surface pageSurface()
             surface.height.at(x, y) = x / 60 % 2 == 0 ? 8.0f : 0.0f;
         }
     }
+    surface.albedo.setRgb(kWidth / 2, kHeight / 2, glm::vec3(5000)); // as pixels of hardly any light have them
     surface.castsShadows = true;
     surface.camera = glm::vec3(0.1f, -0.2f, 2.2f);
     surface.lights = capturedRing(9);
