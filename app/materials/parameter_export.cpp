@@ -12,8 +12,10 @@
 
 #include "acquisition/exchange/lobe_fit.h"
 #include "app/arguments/destinations.h"
+#include "app/materials/agreement.h"
 #include "engine/brdf/brdf_models.h"
 #include "engine/exchange/gltf_file.h"
+#include "engine/exchange/gltf_picture.h"
 #include "engine/exchange/gltf_surface.h"
 #include "engine/exchange/materialx_file.h"
 #include "engine/files/error.h"
@@ -24,6 +26,7 @@
 #include "engine/materials/material_specification.h"
 #include "engine/scene/ball.h"
 #include "engine/surface/height_from_normals.h"
+#include "engine/surface/object_places.h"
 #include "engine/surface/surface.h"
 
 namespace nacre {
@@ -233,11 +236,30 @@ Image heightOf(const ParameterExport& asked, const Surface& surface)
                                          : surface.height;
 }
 
+// What the .glb's own pictures are, beside what nacre render makes of the surface with its layer and without.
+std::string describeLoss(Surface surface, const std::vector<SurfaceLobes>& lobes, float scale)
+{
+    if (surface.castsShadows) {
+        surface.horizon = horizonMap(surface.normals, heightInPicture(surface));
+    }
+    Surface own = judgedSurface(surface);
+    GltfScene scene = gltfSurface(own, own.height, lobes, "");
+    scene.radianceScale = scale;
+    const auto picture = [&](std::span<const Light> lights) { return gltfPicture(scene, own, lights); };
+    std::string text = fmt::format("its pictures have {:.1f} dB", agreementDecibels(own, picture));
+    if (!own.residual.empty()) {
+        own.residual = {};
+        text += fmt::format(", {:.1f} of the surface without its residual layer", agreementDecibels(own, picture));
+    }
+    return text;
+}
+
 void saveGltf(const ParameterExport& asked, const Source& source, const std::vector<std::unique_ptr<Fitted>>& all,
               float scale)
 {
     const std::string name = fs::path(asked.source).stem().string();
     GltfScene scene;
+    std::string loss;
     if (source.isSurface) {
         std::vector<SurfaceLobes> lobes;
         for (const auto& fitted : all) {
@@ -248,7 +270,12 @@ void saveGltf(const ParameterExport& asked, const Source& source, const std::vec
         if (side > options.largestTexture && !asked.quiet) {
             fmt::print("textures are made smaller, {} pixels to {}\n", side, options.largestTexture);
         }
-        scene = gltfSurface(source.surface, heightOf(asked, source.surface), lobes, name, options);
+        Surface surface = source.surface;
+        surface.height = heightOf(asked, surface);
+        scene = gltfSurface(surface, surface.height, lobes, name, options);
+        if (!asked.quiet) {
+            loss = "; " + describeLoss(std::move(surface), lobes, scale);
+        }
     } else {
         scene.name = name;
         scene.mesh = sphereMesh(0.5f * asked.width);
@@ -258,10 +285,10 @@ void saveGltf(const ParameterExport& asked, const Source& source, const std::vec
     scene.radianceScale = scale;
     saveGlb(asked.gltf, scene);
     if (!asked.quiet) {
-        fmt::print("{}: {} triangles, {} textures, {:.2f} MB, {} m wide{}\n", asked.gltf.string(),
+        fmt::print("{}: {} triangles, {} textures, {:.2f} MB, {} m wide{}{}\n", asked.gltf.string(),
                    scene.mesh.indices.size() / 3, scene.images.size(),
                    static_cast<double>(fs::file_size(asked.gltf)) / 1e6, asked.width,
-                   scale != 1 ? fmt::format("; radiance is to be multiplied by {:.4g}", scale) : "");
+                   scale != 1 ? fmt::format("; radiance is to be multiplied by {:.4g}", scale) : "", loss);
     }
 }
 

@@ -7,16 +7,13 @@
 #include <glm/geometric.hpp>
 #include <nlohmann/json.hpp>
 
+#include "app/materials/agreement.h"
 #include "engine/files/error.h"
-#include "engine/files/measures.h"
 #include "engine/page/page_shape.h"
 #include "engine/scene/reference.h"
 
 namespace nacre {
 namespace {
-
-constexpr int kJudgedSide = 192; // pixels of the pictures that tell what the page costs
-constexpr size_t kJudgedLights = 6;
 
 // How much of radiance over irradiance one code of each component is, under the captured light that it matters most
 // for.
@@ -54,20 +51,10 @@ ResidualLayer roundedLayer(const ResidualLayer& layer, float step)
     return rounded;
 }
 
-std::vector<Light> judgedLights(const Surface& surface)
-{
-    std::vector<Light> lights;
-    const size_t count = std::min(kJudgedLights, surface.lights.size());
-    for (size_t i = 0; i < count; ++i) {
-        lights.push_back(surface.lights[i * surface.lights.size() / count].light);
-    }
-    return lights.empty() ? std::vector<Light>{{glm::normalize(glm::vec3(-0.4f, 0.5f, 0.8f))}} : lights;
-}
-
 // Of the surface under its captured lights.
 float peakOverIrradiance(const Surface& surface)
 {
-    Scene scene{fittedSurface(surface, kJudgedSide, kJudgedSide), {}};
+    Scene scene{judgedSurface(surface), {}};
     float largest = 0;
     for (const Light& light : judgedLights(surface)) {
         scene.lights = {light};
@@ -111,20 +98,11 @@ ResidualLayer layerWithin(const Surface& own, size_t bytes)
 
 double pageDecibels(const Surface& page, const Surface& own)
 {
-    Scene shown{fittedSurface(page, kJudgedSide, kJudgedSide), {}},
-        truth{fittedSurface(own, kJudgedSide, kJudgedSide), {}};
-    std::vector<uint8_t> mask;
-    for (size_t i = 0; i < truth.surface.labels.size(); ++i) {
-        mask.push_back(isShaded(truth.surface, i) ? 1 : 0);
-    }
-    double squares = 0;
-    const std::vector<Light> lights = judgedLights(own);
-    for (const Light& light : lights) {
-        shown.lights = truth.lights = {light};
-        const Frame frame = renderReference(truth);
-        squares += std::pow(10, -0.1 * radiancePsnr(renderReference(shown), frame, mask, peakOf(frame, mask)));
-    }
-    return -10 * std::log10(std::max(squares / static_cast<double>(lights.size()), 1e-12));
+    Scene shown{judgedSurface(page), {}};
+    return agreementDecibels(judgedSurface(own), [&](std::span<const Light> lights) {
+        shown.lights.assign(lights.begin(), lights.end());
+        return renderReference(shown);
+    });
 }
 
 void fitIntoBudget(PageContent& content, size_t budget)

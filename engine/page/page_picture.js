@@ -164,8 +164,18 @@ class Painter {
         gl.generateMipmap(gl.TEXTURE_2D);
     }
 
+    // Whether the picture shows anything else than `content`, which it will from now on.
+    static isNew(picture, content) {
+        const known = picture.content;
+        picture.content = JSON.stringify(content);
+        return picture.content !== known;
+    }
+
     // `view`: shape, material (null: the shape's own), lights, show, layer, gain.
     paint(picture, view) {
+        if (!Painter.isNew(picture, { ...view, shape: this.scene.shapes.indexOf(view.shape) })) {
+            return; // zoomed, moved or wiped
+        }
         const { gl, shade } = this, { shape } = view, textures = this.texturesOf(shape);
         const isOwn = view.material === null;
         this.begin(picture, shade);
@@ -228,8 +238,10 @@ class Painter {
 
     // `gain`: of the photograph's linear values.
     paintPhotograph(picture, photograph, gain) {
-        const { gl } = this;
-        const texture = this.held(photograph, () => {
+        if (!Painter.isNew(picture, { light: photograph.light, gain })) {
+            return;
+        }
+        const { gl } = this, texture = this.held(photograph, () => {
             const made = this.textureOf(gl.TEXTURE_2D, gl.NEAREST);
             gl.texImage2D(gl.TEXTURE_2D, 0, gl.RGBA8, gl.RGBA, gl.UNSIGNED_BYTE, photograph.bitmap);
             return made;

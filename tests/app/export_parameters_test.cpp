@@ -40,6 +40,7 @@ TEST_F(ExportParameters, ASurfaceLeavesAsARelief)
     const ProgramRun made = runNacre({"export", path("a.nacre"), "--gltf", path("a.glb"), "--width", "0.2"});
     ASSERT_EQ(made.exitCode, 0) << made.err;
     EXPECT_NE(made.out.find("0.2 m wide"), std::string::npos) << made.out;
+    EXPECT_NE(made.out.find("its pictures have "), std::string::npos) << made.out;
 }
 
 TEST_F(ExportParameters, RefusesWithTheRightCode)

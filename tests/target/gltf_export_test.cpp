@@ -6,6 +6,7 @@
 #include <assimp/scene.h>
 #include <gtest/gtest.h>
 
+#include "engine/exchange/gltf_picture.h"
 #include "engine/exchange/gltf_surface.h"
 #include "engine/files/whole_file.h"
 #include "tests/support/temp_folder.h"
@@ -88,6 +89,24 @@ TEST(GltfExport, TexturesHoldEachLabelsParameters)
     // sRGB's own curve at 0.4 over the largest value, 0.9.
     EXPECT_NEAR(base.at(2, 2, 0), 1.055 * std::pow(0.4 / 0.9, 1 / 2.4) - 0.055, 0.5 / 255 + 1e-4);
     EXPECT_NEAR(scene.material.baseColor.x, 0.9f, 1e-6);
+}
+
+// Within what eight bits of roughness are at the highlight's peak, which goes by its fourth power, and of a colour.
+TEST(GltfExport, ItsPictureIsTheParametersOfEachLabel)
+{
+    Surface surface = twoMaterials(16);
+    const GltfScene scene = gltfSurface(surface, surface.height, kLobes, "a");
+    const glm::vec3 n = surface.normals.normals[0], l(0.96f, 0, 0.28f), e(2, 1, 0.5f);
+    const Image picture = gltfPicture(scene, surface, std::vector<Light>{{l, e}});
+    for (const int label : {0, 1}) {
+        const SurfaceLobes& lobes = kLobes[label];
+        const glm::vec3 expected =
+            e * glm::dot(n, l) * gltfModel(lobes.shape, false)->evaluate(lobes.colours, n, l, {0, 0, 1});
+        for (int c = 0; c < 3; ++c) {
+            EXPECT_NEAR(picture.rgb(label == 0 ? 2 : 12, 7)[c], expected[c], 0.035f * expected[c]) << label;
+        }
+    }
+    EXPECT_EQ(picture.rgb(0, 0), glm::vec3(0)); // the hole
 }
 
 TEST(GltfExport, GridsAndTexturesAreBounded)
