@@ -130,8 +130,8 @@ struct PageFrame {
     std::vector<PageState> states;
 };
 
-// Opens all pages, takes them to each state and writes the canvas's pixels into the document. The document's load,
-// after which it is dumped, waits for a frame whose writing goes on.
+// Opens all pages, takes them to each state, and to the first again after the context was lost, and writes the canvas's
+// pixels into the document. The document's load, after which it is dumped, waits for a frame whose writing goes on.
 std::string harness(const std::vector<PageFrame>& frames)
 {
     std::string elements, hashes;
@@ -158,14 +158,23 @@ async function show(frame) {
         await new Promise(loaded => frame.addEventListener("load", loaded));
     }
     const page = await frame.contentWindow.nacrePage;
-    hashes[frame.name].forEach((hash, i) => {
+    const tell = (hash, i) => {
         page.go(hash);
         const cut = document.createElement("canvas");
         cut.width = page.shape.width;
         cut.height = page.shape.height;
         cut.getContext("2d").drawImage(page.canvas, -page.frame.x, -page.frame.y);
         say(`picture ${frame.name}-${i} ${cut.toDataURL("image/png").split(",")[1]} end`);
-    });
+    };
+    hashes[frame.name].forEach(tell);
+    const context = page.painter.gl.getExtension("WEBGL_lose_context");
+    const event = kind => new Promise(come => page.canvas.addEventListener(kind, come, { once: true }));
+    const lost = event("webglcontextlost"), back = event("webglcontextrestored");
+    context.loseContext();
+    await lost;
+    setTimeout(() => context.restoreContext()); // after the event
+    await back;
+    tell(hashes[frame.name][0], "again");
     const root = frame.contentDocument.documentElement;
     say(`wider ${frame.name} ${root.scrollWidth > frame.contentWindow.innerWidth} end`);
 }
@@ -326,6 +335,7 @@ TEST_F(Page, BrowserShowsWhatTheTwinAndThePhotographsDo)
             const std::string name = fmt::format("{}-{}", frame, i);
             expectAlike(shownPicture(shown.out, name, folder_), states[i].expected, name);
         }
+        expectAlike(shownPicture(shown.out, frame + "-again", folder_), states[0].expected, "after a lost context");
     }
     for (size_t i = 0; i < held.states.size(); ++i) {
         const Image picture = shownPicture(shown.out, fmt::format("held-{}", i), folder_);
@@ -373,10 +383,11 @@ TEST_F(Page, SaysWhatItTookAndKeepsToItsBudget)
 
 TEST_F(Page, TakesLargeShapesDown)
 {
-    saveSurface(folder_ / "a.nacre", transferredSurface(bumpyNormals(2100, 40), glossyMaterial()), false);
-    const ProgramRun made = exported({});
+    saveSurface(folder_ / "a.nacre", transferredSurface(bumpyNormals(8192, 16), glossyMaterial()), false);
+    const ProgramRun made = exported({"--gltf", path("a.glb")});
     ASSERT_EQ(made.exitCode, 0) << made.err;
-    EXPECT_NE(made.err.find("a has 2100x40 pixels: the page has every 1.03th, 2048x39"), std::string::npos) << made.err;
+    EXPECT_NE(made.err.find("a has 8192x16 pixels: the page has every 4.00th, 2048x4"), std::string::npos) << made.err;
+    EXPECT_NE(made.out.find("textures are made smaller, 8192 pixels to 4096"), std::string::npos) << made.out;
 }
 
 TEST_F(Page, RefusesWithTheRightCode)
