@@ -68,7 +68,7 @@ uint16_t HeightCodes::of(float height) const
 
 HeightCodes heightCodes(const Surface& surface)
 {
-    constexpr float kFinest = 1.0f / 64;
+    constexpr float kFinest = 1.0f / 256;
     float low = std::numeric_limits<float>::infinity(), high = -low;
     for (size_t i = 0; i < surface.height.values.size(); ++i) {
         if (surface.normals.confidence[i] > 0) {

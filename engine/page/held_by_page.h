@@ -20,8 +20,8 @@ float albedoStep(const Surface& surface);
 uint16_t albedoCode(float factor, float step);
 float albedoFromCode(uint16_t code, float step);
 
-// A height by steps of 1/64 pixel, or so coarse ones that 16 bits hold them all. That moves one
-// code of a horizon in forty by more than 1.
+// A height by steps of 1/256 pixel, or so coarse ones that 16 bits hold them all: one code of a horizon in twenty moves
+// by 1.
 struct HeightCodes {
     float low = 0, step = 0; // pixels
 

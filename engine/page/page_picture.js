@@ -156,18 +156,16 @@ class Painter {
         this.gl.drawArrays(this.gl.TRIANGLES, 0, 3);
     }
 
-    finish(picture) {
+    finish() {
         const { gl } = this;
         gl.bindFramebuffer(gl.FRAMEBUFFER, null);
-        gl.activeTexture(gl.TEXTURE0);
-        gl.bindTexture(gl.TEXTURE_2D, picture.texture);
-        gl.generateMipmap(gl.TEXTURE_2D);
     }
 
     // Whether the picture shows anything else than `content`, which it will from now on.
     static isNew(picture, content) {
         const known = picture.content;
         picture.content = JSON.stringify(content);
+        picture.isReduced = picture.isReduced && picture.content === known;
         return picture.content !== known;
     }
 
@@ -196,7 +194,7 @@ class Painter {
             this.setMaterial(label, this.scene.materials[label < 0 ? view.material ?? 0 : label]);
             this.draw();
         }
-        this.finish(picture);
+        this.finish();
     }
 
     setMaterial(label, material) {
@@ -250,7 +248,7 @@ class Painter {
         this.bind(this.photograph, 0, gl.TEXTURE_2D, "photograph", texture);
         gl.uniform1f(this.photograph.at("gain"), gain);
         this.draw();
-        this.finish(picture);
+        this.finish();
     }
 
     // `frame`: x and y of the top left corner and the scale, in the canvas's pixels. `second`: right of the line, or null.
@@ -260,6 +258,10 @@ class Painter {
         gl.useProgram(screen.program);
         for (const [unit, name, picture] of [[0, "first", first], [1, "second", second ?? first]]) {
             this.bind(screen, unit, gl.TEXTURE_2D, name, picture.texture);
+            if (frame.scale < 1 && !picture.isReduced) {
+                gl.generateMipmap(gl.TEXTURE_2D);
+                picture.isReduced = true;
+            }
             // From so many screen pixels a pixel on, pixels are shown as they are.
             gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MAG_FILTER, frame.scale < 6 ? gl.LINEAR : gl.NEAREST);
             gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MIN_FILTER,

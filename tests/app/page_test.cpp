@@ -37,7 +37,7 @@ Material judgedMaterial(const LambertGgx& model, TableDomain domain, const std::
 }
 
 // Two materials side by side, one of them in natural coordinates; factors, a residual layer, and a height whose steps
-// cast shadows.
+// cast shadows. A page stores a part of the picture, which is not in its middle.
 Surface pageSurface()
 {
     Surface surface = transferredSurface(bumpyNormals(kWidth, kHeight), glossyMaterial());
@@ -51,9 +51,13 @@ Surface pageSurface()
         for (int x = 0; x < kWidth; ++x) {
             const size_t pixel = surface.normals.index(x, y);
             surface.labels[pixel] = surface.labels[pixel] == 0 && x > 100 ? 1 : surface.labels[pixel];
+            if (x < 11 || y > 170) {
+                surface.labels[pixel] = Surface::kNoMaterial;
+                surface.normals.confidence[pixel] = 0;
+            }
             const float u = 0.1f * static_cast<float>(x), v = 0.07f * static_cast<float>(y);
             surface.albedo.setRgb(x, y, {1 + 0.5f * std::sin(u), 1 + 0.4f * std::sin(v), 1 + 0.3f * std::sin(u + v)});
-            surface.height.at(x, y) = x / 60 % 2 == 0 ? 8.0f : 0.0f;
+            surface.height.at(x, y) = ((x + y / 3) / 60 % 2 == 0 ? 8.0f : 0.0f) + 4 * std::sin(3 * u) * std::sin(5 * v);
         }
     }
     surface.albedo.setRgb(kWidth / 2, kHeight / 2, glm::vec3(5000)); // as pixels of hardly any light have them
