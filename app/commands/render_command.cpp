@@ -16,6 +16,7 @@ namespace {
 struct RenderArguments {
     SceneOptions scene;
     std::filesystem::path output;
+    float scale = 1;
     bool force = false;
     bool quiet = false;
 };
@@ -51,7 +52,8 @@ void report(const Scene& scene, Renderer& renderer, const RenderOutput& output, 
 {
     noteUncertain(scene);
     const NormalMap& normals = scene.surface.normals;
-    fmt::print("rendered     {}x{} pixels under {} light{}", normals.width, normals.height, scene.lights.size(),
+    const glm::ivec2 size = wholeZoom(normals.width, normals.height, output.scale).size;
+    fmt::print("rendered     {}x{} pixels under {} light{}", size.x, size.y, scene.lights.size(),
                scene.lights.size() == 1 ? "" : "s");
     fmt::print("{}\ndevice       {}\n", output.frames == 1 ? "" : fmt::format(", {} frames", output.frames),
                describe(renderer.context().info()));
@@ -73,7 +75,7 @@ void report(const Scene& scene, Renderer& renderer, const RenderOutput& output, 
 void runRender(const RenderArguments& arguments)
 {
     const SceneDescription description = arguments.scene.description();
-    const RenderOutput output = checkedOutput(description, arguments.output, arguments.force);
+    const RenderOutput output = checkedOutput(description, arguments.output, arguments.scale, arguments.force);
     requireConsistent(description);
     const Context context(arguments.scene.device);
     const Scene scene = loadScene(description, arguments.scene.fits, context, arguments.quiet);
@@ -142,6 +144,12 @@ void addRenderCommand(CLI::App& app)
         .addParsed(
             *command, "--motion", &SceneDescription::motion, motionFromName,
             "Motion of the lights over --frames: turntable (about the view), sweep (left to right), none [turntable]")
+        ->group("Picture");
+    command
+        ->add_option(
+            "--scale", arguments->scale,
+            "Scale of the picture, up to 64: what pixels have is filtered and then shaded, or what is shaded is "
+            "averaged (default: 1)")
         ->group("Picture");
     command
         ->add_option("-o,--output", arguments->output,

@@ -10,6 +10,7 @@
 #include "engine/files/error.h"
 #include "engine/files/text_files.h"
 #include "engine/scene/scene_residual.h"
+#include "engine/surface/zoom.h"
 
 namespace nacre {
 namespace fs = std::filesystem;
@@ -17,6 +18,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr const char* kAnimation = ".webp";
+constexpr float kMostScale = 64;
 constexpr int kExposureFrames = 8; // of a sequence, to find one exposure for all
 
 // One for all frames of an animation.
@@ -76,7 +78,7 @@ void checkLook(const RenderOutput& output)
 
 } // namespace
 
-RenderOutput checkedOutput(const SceneDescription& scene, const fs::path& file, bool force)
+RenderOutput checkedOutput(const SceneDescription& scene, const fs::path& file, float scale, bool force)
 {
     const std::string extension = lowerExtension(file);
     if (extension != ".png" && extension != ".exr" && extension != kAnimation) {
@@ -87,6 +89,10 @@ RenderOutput checkedOutput(const SceneDescription& scene, const fs::path& file, 
         throw Error("", fmt::format("--frames {} is out of range", scene.frames), fmt::format("1 to {}", kMostFrames),
                     Error::kUsage);
     }
+    if (!(scale > 0 && scale <= kMostScale)) {
+        throw Error("", fmt::format("--scale {} is out of range", scale),
+                    fmt::format("above 0, at most {}", kMostScale), Error::kUsage);
+    }
     const RenderOutput output{.file = file,
                               .frames = scene.frames,
                               .motion =
@@ -96,6 +102,7 @@ RenderOutput checkedOutput(const SceneDescription& scene, const fs::path& file, 
                               .toneCurve = scene.toneCurve,
                               .show = scene.show,
                               .residual = scene.residual,
+                              .scale = scale,
                               .isRadiance = extension == ".exr",
                               .isAnimation = extension == kAnimation};
     checkLook(output);
@@ -109,8 +116,13 @@ RenderedOutput renderFrames(Renderer& renderer, const RenderOutput& output, cons
 {
     const std::vector<ImageAttribute> attributes = attributesOf(renderer.context().info());
     std::optional<AnimationFile> animation;
+    const NormalMap& pixels = scene.surface.normals;
+    const Zoom zoom = wholeZoom(pixels.width, pixels.height, output.scale);
+    if (output.scale != 1) {
+        renderer.setZoom(zoom);
+    }
     if (output.isAnimation) {
-        animation.emplace(output.file, scene.surface.normals.width, scene.surface.normals.height);
+        animation.emplace(output.file, zoom.size.x, zoom.size.y);
     }
     RenderedOutput rendered{.first = fileOfFrame(output.file, 0, output.frames)};
     renderer.setPath(output.path);

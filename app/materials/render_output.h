@@ -17,6 +17,7 @@ struct RenderOutput {
     int toneCurve = kToneSrgb;
     Show show = Show::picture;
     ResidualUse residual = ResidualUse::on;
+    float scale = 1; // of pixels, see Renderer::setZoom
     bool isRadiance = false;
     bool isAnimation = false;
 
@@ -25,7 +26,7 @@ struct RenderOutput {
 };
 
 // Throws Error (usage) where options contradict each other, Error (data) where the output cannot be written.
-RenderOutput checkedOutput(const SceneDescription& scene, const std::filesystem::path& file, bool force);
+RenderOutput checkedOutput(const SceneDescription& scene, const std::filesystem::path& file, float scale, bool force);
 
 struct RenderedOutput {
     std::filesystem::path first; // file

@@ -36,21 +36,29 @@ bool dependsOnDisplay(Show show)
 
 Renderer::Renderer(const Context& context, VkDeviceSize cacheBytes)
     : context_(context), direct_(context), residualPass_(context), balls_(context, direct_, cacheBytes),
-      cacheBytes_(cacheBytes), ballFrame_(context), directFrame_(context, direct_), exposureFrame_(context, direct_),
+      cacheBytes_(cacheBytes), own_(context, direct_), exposureFrame_(context, direct_),
       nearest_(makeSampler(context, VK_FILTER_NEAREST)),
       falseColours_(context, {.fragmentShader = false_colour_frag,
                               .bindings = kFalseColourBindings,
                               .pushConstantBytes = sizeof(FalseColourConstants),
-                              .targetFormat = kCodeFormat})
+                              .targetFormat = kCodeFormat}),
+      nearer_(context, direct_), zoomFrame_(context)
 {
+}
+
+void Renderer::pictureHasChanged()
+{
+    own_.isStale = nearer_.isStale = true;
 }
 
 // What was made of the surface's pixels.
 void Renderer::dropPixels()
 {
-    pixels_.reset();
+    own_.dropPixels();
+    nearer_.dropPixels();
+    magnified_.reset();
+    zoomIsStale_ = true;
     exposurePixels_.reset();
-    directFrame_.reset();
     exposureFrame_.reset();
 }
 
@@ -64,13 +72,12 @@ void Renderer::setSurface(Surface surface, std::vector<BallSize> sizes)
     surface_ = std::move(surface);
     plain_ = isPlain(surface_);
     dropPixels();
-    ballFrame_.reset();
+    own_.dropPicture();
     ballSizes_ = std::move(sizes);
     lightsAreStale_ = true;
     radiance_.reset();
-    picture_.reset();
     materialBall_.reset();
-    ballsAreStale_ = pictureIsStale_ = true;
+    ballsAreStale_ = true;
 }
 
 void Renderer::setPixels(const Surface& pixels)
@@ -86,16 +93,32 @@ void Renderer::setPixels(const Surface& pixels)
     dropPixels();
     radiance_.reset();
     if (isOtherSize) {
-        ballFrame_.reset();
-        picture_.reset();
+        own_.dropPicture();
     }
-    pictureIsStale_ = true;
+}
+
+void Renderer::setZoom(const std::optional<Zoom>& zoom)
+{
+    if (zoom == zoom_) {
+        return;
+    }
+    if (zoom) {
+        requirePictureSize(context_, zoom->size.x, zoom->size.y);
+    }
+    if (!zoom || !zoom_ || zoom->size != zoom_->size) {
+        nearer_.dropPicture();
+    }
+    nearer_.dropPixels();
+    magnified_.reset();
+    radiance_.reset();
+    zoom_ = zoom;
+    zoomIsStale_ = true;
 }
 
 void Renderer::materialBallHasChanged()
 {
     if (materialBall_) {
-        materialBall_->isStale = true;
+        materialBall_->canvas.isStale = true;
     }
 }
 
@@ -104,7 +127,9 @@ void Renderer::lightsHaveChanged()
     materialBallHasChanged();
     lightsAreStale_ = true;
     radiance_.reset();
-    pictureIsStale_ = pictureIsStale_ || dependsOnLights(show_);
+    if (dependsOnLights(show_)) {
+        pictureHasChanged();
+    }
 }
 
 void Renderer::setLights(std::span<const Light> lights)
@@ -120,7 +145,7 @@ void Renderer::setView(const glm::vec3& view)
     if (view != view_) {
         view_ = view;
         lightsHaveChanged();
-        pictureIsStale_ = true;
+        pictureHasChanged();
     }
 }
 
@@ -160,14 +185,18 @@ DirectFrame::Inputs Renderer::inputs(float gain)
 
 void Renderer::setPath(RenderPath path)
 {
-    pictureIsStale_ = pictureIsStale_ || (path != path_ && show_ == Show::picture);
+    if (path != path_ && show_ == Show::picture) {
+        pictureHasChanged();
+    }
     path_ = path;
 }
 
 void Renderer::setDisplay(const Display& display)
 {
     if (!(display == display_)) {
-        pictureIsStale_ = pictureIsStale_ || dependsOnDisplay(show_);
+        if (dependsOnDisplay(show_)) {
+            pictureHasChanged();
+        }
         display_ = display;
         materialBallHasChanged();
     }
@@ -175,7 +204,9 @@ void Renderer::setDisplay(const Display& display)
 
 void Renderer::setShow(Show show)
 {
-    pictureIsStale_ = pictureIsStale_ || show != show_;
+    if (show != show_) {
+        pictureHasChanged();
+    }
     show_ = show;
 }
 
@@ -232,26 +263,6 @@ RenderPath Renderer::pathTaken()
     return reason.empty() ? RenderPath::ball : RenderPath::direct;
 }
 
-const PixelTextures& Renderer::pixels()
-{
-    if (!pixels_) {
-        pixels_ = uploadPixels(context_, surface_, plain_, Precision::compact);
-    }
-    return *pixels_;
-}
-
-Renderer::Target& Renderer::target()
-{
-    if (!picture_) {
-        const VkExtent3D extent{static_cast<uint32_t>(surface_.normals.width),
-                                static_cast<uint32_t>(surface_.normals.height), 1};
-        picture_.emplace(
-            Target{makeTarget(context_, extent, kCodeFormat),
-                   Buffer(context_, VkDeviceSize{4} * extent.width * extent.height, VK_BUFFER_USAGE_TRANSFER_DST_BIT)});
-    }
-    return *picture_;
-}
-
 // Before near lights or a near camera; what was made of the surface without its places is dropped.
 void Renderer::placePixels()
 {
@@ -271,33 +282,24 @@ void Renderer::uploadLights()
     }
 }
 
-void Renderer::drawInto(const Texture& codes, const std::function<void(VkCommandBuffer)>& record)
+void Renderer::drawDirectly(const Shaded& shaded)
 {
-    context_.run([&](VkCommandBuffer commands) {
-        imageBarrier(commands, codes.image(), kDiscarded, kDrawnTo);
-        record(commands);
-        imageBarrier(commands, codes.image(), kDrawnTo, kCopiedFrom);
+    const DirectFrame::Look look{display_, show_ == Show::coverage};
+    const PixelTextures& from = shaded.canvas.pixels(shaded.pixels, plain_);
+    const DirectFrame::Inputs lit = inputs(1);
+    shaded.canvas.draw(shaded.pixels, [&](VkCommandBuffer commands, const Texture& codes) {
+        shaded.canvas.directFrame.recordPicture(commands, from, lit, look, codes);
     });
 }
 
-void Renderer::drawDirectPicture()
-{
-    const DirectFrame::Look look{display_, show_ == Show::coverage};
-    const PixelTextures& from = pixels();
-    const DirectFrame::Inputs lit = inputs(1);
-    const Texture& codes = target().texture;
-    drawInto(codes, [&](VkCommandBuffer commands) { directFrame_.recordPicture(commands, from, lit, look, codes); });
-}
-
-void Renderer::drawFalseColours()
+void Renderer::drawFalseColours(const Shaded& shaded)
 {
     const FalseColourConstants constants = falseColourConstants(lights_, view_, surface_.materials.size());
-    const PixelTextures& from = pixels();
+    const PixelTextures& from = shaded.canvas.pixels(shaded.pixels, plain_);
     const std::array inputs = {textureInput(kBindingNormals, nearest_, from.normals),
                                textureInput(kBindingAlbedo, nearest_, albedoOrAny(from))};
     const Pipeline& pipeline = falseColours_.with({!plain_, static_cast<int>(show_)});
-    const Texture& codes = target().texture;
-    drawInto(codes, [&](VkCommandBuffer commands) {
+    shaded.canvas.draw(shaded.pixels, [&](VkCommandBuffer commands, const Texture& codes) {
         beginRendering(commands, codes, Load::clear);
         draw(context_, commands, pipeline, inputs, bytesOf(constants));
         vkCmdEndRendering(commands);
@@ -321,18 +323,19 @@ void Renderer::updateBalls()
     }
 }
 
-void Renderer::drawBallPicture()
+void Renderer::drawFromBalls(const Shaded& shaded, bool withResidual)
 {
     updateBalls();
-    const PixelTextures& from = pixels();
+    const PixelTextures& from = shaded.canvas.pixels(shaded.pixels, plain_);
     static_cast<void>(inputs(std::exp2(display_.exposureStops)));
     const BallFrame::Inputs lit{.balls = balls_,
                                 .materials = static_cast<int>(tables_.size()),
                                 .toneCurve = display_.toneCurve,
                                 .residual = residualPass_,
-                                .residualFours = hasResidual() ? from.residualFours : 0};
-    const Texture& codes = target().texture;
-    drawInto(codes, [&](VkCommandBuffer commands) { ballFrame_.record(commands, from, lit, codes); });
+                                .residualFours = withResidual ? from.residualFours : 0};
+    shaded.canvas.draw(shaded.pixels, [&](VkCommandBuffer commands, const Texture& codes) {
+        shaded.canvas.ballFrame.record(commands, from, lit, codes);
+    });
 }
 
 void Renderer::makeMaterialBall(size_t material, int size)
@@ -343,9 +346,7 @@ void Renderer::makeMaterialBall(size_t material, int size)
             label = label == Surface::kNoMaterial ? label : static_cast<uint8_t>(material);
         }
     }
-    const auto side = static_cast<uint32_t>(size);
-    materialBall_.emplace(MaterialBall{material, size, uploadPixels(context_, ball, plain_, Precision::compact),
-                                       BallFrame(context_), makeTarget(context_, {side, side, 1}, kCodeFormat)});
+    materialBall_.emplace(MaterialBall{material, size, std::move(ball), Canvas(context_, direct_)});
 }
 
 const Texture* Renderer::drawMaterialBall(size_t material, int size)
@@ -356,63 +357,76 @@ const Texture* Renderer::drawMaterialBall(size_t material, int size)
     if (!materialBall_ || materialBall_->material != material || materialBall_->size != size) {
         makeMaterialBall(material, size);
     }
-    if (!materialBall_->isStale) {
-        return &materialBall_->texture;
+    if (materialBall_->canvas.isStale) {
+        drawFromBalls({materialBall_->canvas, materialBall_->pixels}, false);
     }
-    updateBalls();
-    const BallFrame::Inputs lit{.balls = balls_,
-                                .materials = static_cast<int>(tables_.size()),
-                                .toneCurve = display_.toneCurve,
-                                .residual = residualPass_,
-                                .residualFours = 0};
-    materialBall_->isStale = false;
-    drawInto(materialBall_->texture, [&](VkCommandBuffer commands) {
-        materialBall_->frame.record(commands, materialBall_->pixels, lit, materialBall_->texture);
-    });
-    return &materialBall_->texture;
+    return &materialBall_->canvas.codes();
+}
+
+Renderer::Shaded Renderer::shaded()
+{
+    if (!zoom_ || !zoom_->magnifies()) {
+        return {own_, surface_};
+    }
+    if (!magnified_) {
+        magnified_ = magnified(surface_, *zoom_);
+    }
+    return {nearer_, magnified_->pixels};
+}
+
+void Renderer::shade(const Shaded& shaded)
+{
+    if (show_ != Show::picture && show_ != Show::coverage) {
+        drawFalseColours(shaded);
+    } else if (pathTaken() == RenderPath::ball) {
+        drawFromBalls(shaded, hasResidual());
+    } else {
+        drawDirectly(shaded);
+    }
+}
+
+void Renderer::drawZoomed(const Texture& shaded)
+{
+    if (zoomIsStale_) {
+        zoomFrame_.set(*zoom_, magnified_ ? std::span<const uint8_t>(magnified_->cover) : std::span<const uint8_t>());
+        zoomIsStale_ = false;
+    }
+    zoomFrame_.draw(shaded);
 }
 
 void Renderer::drawPicture()
 {
-    if (!pictureIsStale_) {
+    uploadLights();
+    const Shaded shaded = this->shaded();
+    const bool isStale = shaded.canvas.isStale;
+    if (!isStale && !(zoom_ && zoomIsStale_)) {
         return;
     }
-    uploadLights();
-    if (show_ != Show::picture && show_ != Show::coverage) {
-        drawFalseColours();
-    } else if (pathTaken() == RenderPath::ball) {
-        drawBallPicture();
-    } else {
-        drawDirectPicture();
+    if (isStale) {
+        shade(shaded);
     }
-    pictureIsStale_ = false;
+    if (zoom_) {
+        drawZoomed(shaded.canvas.codes());
+    }
     ++drawnPictures_;
 }
 
 Image Renderer::picture()
 {
     drawPicture();
-    context_.run([&](VkCommandBuffer commands) {
-        const VkBufferImageCopy copy{.imageSubresource = {.aspectMask = VK_IMAGE_ASPECT_COLOR_BIT, .layerCount = 1},
-                                     .imageExtent = picture_->texture.extent()};
-        vkCmdCopyImageToBuffer(commands, picture_->texture.image(), kCopiedFrom.layout, picture_->readback.get(), 1,
-                               &copy);
-        makeVisibleToHost(commands, picture_->readback);
-    });
-    Image picture(surface_.normals.width, surface_.normals.height, 3);
-    const auto* codes = static_cast<const uint8_t*>(picture_->readback.mapped());
-    for (size_t i = 0; i < picture.pixelCount(); ++i) {
-        for (size_t c = 0; c < 3; ++c) {
-            picture.values[3 * i + c] = static_cast<float>(codes[4 * i + c]) / 255.0f;
-        }
-    }
-    return picture;
+    return readCodes(context_, drawnPicture());
 }
 
 Frame Renderer::radiance()
 {
     if (!radiance_) {
-        radiance_ = directFrame_.radiance(surface_, inputs(1));
+        const DirectFrame::Inputs lit = inputs(1);
+        const Shaded shaded = this->shaded();
+        radiance_ = shaded.canvas.directFrame.radiance(shaded.pixels, lit);
+        if (zoom_) {
+            radiance_ = zoom_->magnifies() ? coveredRadiance(*radiance_, magnified_->cover)
+                                           : reducedRadiance(*radiance_, *zoom_);
+        }
     }
     return *radiance_;
 }
@@ -441,13 +455,11 @@ Frame Renderer::render(const Scene& scene)
 
 VkDeviceSize Renderer::deviceBytes() const
 {
-    VkDeviceSize bytes = balls_.bytes() + groups_.bytes() + ballFrame_.bytes() + directFrame_.bytes() +
+    VkDeviceSize bytes = balls_.bytes() + groups_.bytes() + own_.bytes() + nearer_.bytes() + zoomFrame_.bytes() +
                          exposureFrame_.bytes() + residualPass_.bytes();
     for (const TableTexture& table : tables_) {
         bytes += table.texture.bytes();
     }
-    bytes += pixels_ ? pixels_->bytes() : 0;
-    bytes += picture_ ? picture_->texture.bytes() + picture_->readback.bytes() : 0;
     return bytes;
 }
 

@@ -4,9 +4,8 @@
 #include <span>
 #include <vector>
 
-#include "engine/gpu/balls.h"
-#include "engine/gpu/direct_frame.h"
-#include "engine/gpu/surface_textures.h"
+#include "engine/gpu/canvas.h"
+#include "engine/gpu/zoom_frame.h"
 #include "engine/scene/false_colour.h"
 #include "engine/scene/scene.h"
 
@@ -31,6 +30,9 @@ public:
     void setDisplay(const Display& display);
     void setShow(Show show);           // the picture by default
     void setResidual(ResidualUse use); // of a surface that has a layer; on by default
+    // Pictures and radiance of a part at another scale; none: as they are. Magnified, what pixels have is filtered and
+    // then shaded; reduced, what is shaded is averaged.
+    void setZoom(const std::optional<Zoom>& zoom);
 
     // Linear radiance by the direct path in 32-bit floats, whatever the path that is set.
     Frame radiance();
@@ -41,14 +43,14 @@ public:
     // The same without reading it back.
     void drawPicture();
     // What it has drawn: codes, to be copied from (kCopiedFrom).
-    const Texture& drawnPicture() const { return picture_->texture; }
+    const Texture& drawnPicture() const { return zoom_ ? zoomFrame_.codes() : own_.codes(); }
     // A ball of one of the materials under the lights of the picture, `size` pixels across, from the balls that the
     // picture is drawn from: one lookup a pixel. Null where pictures are drawn directly, or of a residual layer alone.
     const Texture* drawMaterialBall(size_t material, int size);
     // The part of it that does not depend on the pixels; nothing on the direct path.
     void updateBalls();
     // Draws the next picture again though nothing changed: for measurement.
-    void forgetPicture() { pictureIsStale_ = true; }
+    void forgetPicture() { pictureHasChanged(); }
 
     // The one that a picture takes. Error (usage) where ball was set and cannot be.
     RenderPath pathTaken();
@@ -68,44 +70,42 @@ public:
     size_t drawnBallLights() const { return balls_.drawnLights(); }
 
 private:
-    struct Target {
-        Texture texture; // kCodeFormat
-        Buffer readback;
-    };
     struct MaterialBall {
         size_t material;
         int size;
-        PixelTextures pixels; // with labels where those of the surface have them
-        BallFrame frame;
-        Texture texture;
-        bool isStale = true;
+        Surface pixels; // with labels where those of the surface have them
+        Canvas canvas;
+    };
+    struct Shaded {
+        Canvas& canvas;
+        const Surface& pixels;
     };
 
-    const PixelTextures& pixels();
     void makeMaterialBall(size_t material, int size);
-    Target& target();
+    // What is drawn: the surface's own pixels, or those that the zoom wants.
+    Shaded shaded();
     void uploadLights();
     void placePixels();
     void dropPixels();
+    void pictureHasChanged();
     void lightsHaveChanged();
     void materialBallHasChanged();
     bool hasResidual() const;
     bool ballsAreCodes() const;
     // With the weights of the frame's lights, `gain` times, uploaded.
     DirectFrame::Inputs inputs(float gain);
-    // Draws codes, from black.
-    void drawInto(const Texture& codes, const std::function<void(VkCommandBuffer)>& record);
-    void drawDirectPicture();
-    void drawBallPicture();
-    void drawFalseColours();
+    void drawDirectly(const Shaded& shaded);
+    void drawFromBalls(const Shaded& shaded, bool withResidual);
+    void drawFalseColours(const Shaded& shaded);
+    void shade(const Shaded& shaded);
+    void drawZoomed(const Texture& shaded);
 
     const Context& context_;
     DirectPass direct_;
     ResidualPass residualPass_;
     BallCache balls_;
     VkDeviceSize cacheBytes_;
-    BallFrame ballFrame_;
-    DirectFrame directFrame_;
+    Canvas own_;                // of the surface
     DirectFrame exposureFrame_; // of exposurePixels_
     Sampler nearest_;
     Pipelines falseColours_;
@@ -115,7 +115,6 @@ private:
     std::vector<TableTexture> tables_;
     std::vector<BallSize> ballSizes_;
     std::optional<Surface> exposurePixels_;
-    std::optional<PixelTextures> pixels_; // compact
     std::vector<Light> lights_;
     LightGroups groups_;
     ResidualUse residual_ = ResidualUse::on;
@@ -126,10 +125,15 @@ private:
     Show show_ = Show::picture;
 
     bool lightsAreStale_ = true;
-    bool ballsAreStale_ = true; // the cache does not know the materials yet
-    bool pictureIsStale_ = true;
+    bool ballsAreStale_ = true;     // the cache does not know the materials yet
     std::optional<Frame> radiance_; // where it is not stale
-    std::optional<Target> picture_;
+
+    std::optional<Zoom> zoom_;
+    std::optional<MagnifiedSurface> magnified_; // by zoom_, once it is drawn
+    Canvas nearer_;                             // of magnified_
+    ZoomFrame zoomFrame_;
+    bool zoomIsStale_ = true;
+
     std::optional<MaterialBall> materialBall_;
     size_t drawnPictures_ = 0;
 };

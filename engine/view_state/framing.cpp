@@ -60,6 +60,22 @@ glm::vec2 screenFromPicture(const glm::vec2& pixel, const Framing& framing, cons
     return area.middle() + (pixel - framing.centre) * framing.zoom;
 }
 
+SeenPart seenPart(const glm::ivec2& picture, const Framing& framing, const Area& area)
+{
+    const glm::vec2 first = glm::round(glm::max(area.origin, screenFromPicture({0, 0}, framing, area)));
+    const glm::vec2 end = glm::round(glm::min(area.origin + area.size, screenFromPicture(picture, framing, area)));
+    return {.origin = first,
+            .zoom = {.scale = framing.zoom,
+                     .origin = pictureFromScreen(first, framing, area),
+                     .size = glm::max(end - first, glm::vec2(0))}};
+}
+
+int columnIn(const SeenPart& part, int column)
+{
+    const float x = (static_cast<float>(column) - part.zoom.origin.x) * part.zoom.scale;
+    return std::clamp(static_cast<int>(std::lround(x)), 0, part.zoom.size.x);
+}
+
 Framing zoomed(const Framing& framing, float steps, const glm::vec2& cursor, const glm::vec2& picture, const Area& area)
 {
     const Framing before = resolved(framing, picture, area);

@@ -4,6 +4,7 @@
 #include <glm/vec2.hpp>
 
 #include "engine/scene/scene_description.h"
+#include "engine/surface/zoom.h"
 
 namespace nacre {
 
@@ -27,6 +28,15 @@ Framing resolved(const Framing& framing, const glm::vec2& picture, const Area& a
 // Screen position to the picture's pixels and back. The framing is a resolved one.
 glm::vec2 pictureFromScreen(const glm::vec2& screen, const Framing& framing, const Area& area);
 glm::vec2 screenFromPicture(const glm::vec2& pixel, const Framing& framing, const Area& area);
+
+// The whole screen pixels of the area on which the picture is seen, and the part of it that they show.
+struct SeenPart {
+    glm::ivec2 origin{0, 0};
+    Zoom zoom; // of no size where nothing is seen
+};
+SeenPart seenPart(const glm::ivec2& picture, const Framing& framing, const Area& area);
+// The part's column at which one of the picture begins.
+int columnIn(const SeenPart& part, int column);
 
 // What the wheel does: a step of 1 zooms in by kZoomStep; what is under the cursor stays there.
 inline constexpr float kZoomStep = 1.189207f; // two to the fourth part of one

@@ -25,7 +25,7 @@ void recordPicture(VkCommandBuffer commands, VkImage image, const PlacedPicture&
                          .dstOffsets = {{r.to.x, r.to.y, 0}, {r.toEnd.x, r.toEnd.y, 1}}});
     }
     if (!blits.empty()) {
-        // Magnified, single pixels stay what they are.
+        // Photographs and verdicts, magnified: single pixels stay what they are.
         const VkFilter filter = picture.framing.zoom >= 1 ? VK_FILTER_NEAREST : VK_FILTER_LINEAR;
         vkCmdBlitImage(commands, picture.texture->image(), kCopiedFrom.layout, image, kFilled.layout,
                        static_cast<uint32_t>(blits.size()), blits.data(), filter);

@@ -153,6 +153,14 @@ void ViewPictures::apply(ViewState& state, const glm::vec3& view, std::span<cons
     applyVerdicts(state);
 }
 
+void ViewPictures::zoomTo(const std::optional<Zoom>& zoom)
+{
+    main_.setZoom(zoom);
+    if (other_) {
+        other_->setZoom(zoom);
+    }
+}
+
 bool ViewPictures::draw()
 {
     const auto drawn = [&] { return main_.drawnPictures() + (other_ ? other_->drawnPictures() : 0); };
@@ -160,6 +168,7 @@ bool ViewPictures::draw()
     if (verdicts_) {
         return false;
     }
+    zoomTo(zoom_);
     main_.drawPicture();
     if (other_) {
         other_->drawPicture();
@@ -185,6 +194,7 @@ Image ViewPictures::picture()
     if (verdicts_) {
         return verdicts_->picture;
     }
+    zoomTo({});
     Image picture = main_.picture();
     if (hasWipe()) {
         const Image other = other_->picture();

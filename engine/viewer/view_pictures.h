@@ -21,12 +21,14 @@ public:
     // Read ones, which verdicts are on; null: none are at hand, and the render stands in their place.
     void setPhotographs(const Photographs* photographs) { photographs_ = photographs; }
 
+    // The part of the renders that is drawn from now on, and its scale; none: all of them as they are.
+    void setZoom(const std::optional<Zoom>& zoom) { zoom_ = zoom; }
     // What has changed since; true where something was drawn.
     bool draw();
     const Texture& main() const { return verdicts_ ? verdicts_->texture : main_.drawnPicture(); }
     const Texture* other() const { return hasWipe() ? &other_->drawnPicture() : nullptr; } // right of the wipe's line
     int wipeColumn() const; // first column of the other; the width where there is none
-    // Both in one, codes in [0,1].
+    // Both in one as they are, codes in [0,1].
     Image picture();
     // Of the main one, linear.
     Frame radiance() { return main_.radiance(); }
@@ -52,6 +54,7 @@ private:
     void turnTo(const ViewState& state);
     void applyTo(Renderer& renderer, const ViewState& state, const glm::vec3& view) const;
     void applyVerdicts(const ViewState& state);
+    void zoomTo(const std::optional<Zoom>& zoom);
     bool hasWipe() const { return other_ && !verdicts_; }
 
     const Context& context_;
@@ -65,6 +68,7 @@ private:
     glm::vec3 view_{0, 0, 1};
     Display display_;
     float wipeAt_ = 1;
+    std::optional<Zoom> zoom_;
     std::optional<std::pair<size_t, double>> uncertain_; // the main one's number, and its share
 };
 

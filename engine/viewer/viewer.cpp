@@ -12,7 +12,6 @@
 
 #include "engine/files/error.h"
 #include "engine/files/stopwatch.h"
-#include "engine/files/whole_file.h"
 #include "engine/gpu/renderer.h"
 #include "engine/gpu/texture.h"
 #include "engine/scene/coverage.h"
@@ -21,6 +20,7 @@
 #include "engine/viewer/background_loads.h"
 #include "engine/viewer/panels.h"
 #include "engine/viewer/placed_picture.h"
+#include "engine/viewer/screenshots.h"
 #include "engine/viewer/session_input.h"
 #include "engine/viewer/ui_pass.h"
 #include "engine/viewer/view_pictures.h"
@@ -62,31 +62,6 @@ constexpr double kTitleSeconds = 0.25;   // between changes of the title while f
 constexpr glm::vec3 kBackground{0.11f, 0.11f, 0.12f};
 constexpr int kFramesToSettle = 3; // ImGui takes a few
 constexpr size_t kFewLights = 16;  // of which the light ball's few pixels are drawn sooner than another ball is made
-constexpr const char* kStateAttribute = "nacre:state"; // of a screenshot: its state file's text
-
-std::filesystem::path stateFileOf(std::filesystem::path picture)
-{
-    return picture.replace_extension(".json");
-}
-
-// With the state in its metadata, and beside it as NAME.json.
-void saveScreenshot(const std::filesystem::path& file, const Image& picture, const ViewState& state)
-{
-    const std::string text = textOf(state, file.parent_path());
-    saveImage(file, picture, PixelType::uint8, {{kStateAttribute, text}});
-    writeTextFile(stateFileOf(file), text);
-}
-
-// The first of nacre-0001.png, nacre-0002.png, ... of which neither picture nor state is in the folder.
-std::filesystem::path nextScreenshot(const std::filesystem::path& folder)
-{
-    for (int number = 1;; ++number) {
-        const std::filesystem::path file = folder / fmt::format("nacre-{:04}.png", number);
-        if (!std::filesystem::exists(file) && !std::filesystem::exists(stateFileOf(file))) {
-            return file;
-        }
-    }
-}
 
 // Frames: what has happened since the last, what was read, and then pictures and panels, as often as anything changes.
 class ViewerWindow {
@@ -110,6 +85,7 @@ private:
     void drawPictures();
     int ballSize() const; // pixels
     const Texture& drawnBall();
+    std::optional<SeenPart> seenPart() const;
     void placePicture(const Stage& stage);
     void describePanels(const Stage& stage);
     void showTitle(double seconds);
@@ -128,6 +104,7 @@ private:
     size_t ballMaterial_ = 0;       // the surface's most frequent one
     PhotographComparison comparison_;
     std::map<std::string, Texture> thumbnails_;
+    std::optional<SeenPart> seen_; // of the renders, as they were drawn
     std::vector<PlacedPicture> placed_;
 
     SessionInput input_;
@@ -336,9 +313,22 @@ const Texture& ViewerWindow::drawnBall()
     return directBall_.drawnPicture();
 }
 
+// None where pictures are shown as they are: photographs and what is judged or compared pixel by pixel.
+std::optional<SeenPart> ViewerWindow::seenPart() const
+{
+    const Stage stage = this->stage();
+    const Framing framing = resolved(session_.state.framing, stage.picture, stage.area);
+    const SeenPart part = nacre::seenPart(stage.picture, framing, stage.area);
+    const bool isRender = session_.comparison == Comparison::none && session_.state.show != Show::verdicts;
+    return isRender && framing.zoom != 1 && part.zoom.size.x > 0 && part.zoom.size.y > 0 ? std::optional(part)
+                                                                                         : std::nullopt;
+}
+
 void ViewerWindow::drawPictures()
 {
     applyState();
+    seen_ = seenPart();
+    pictures_.setZoom(seen_ ? std::optional(seen_->zoom) : std::nullopt);
     pictures_.draw();
     if (!pictures_.scene().main->surface.materials.empty()) {
         ball_ = &drawnBall();
@@ -349,14 +339,19 @@ void ViewerWindow::drawPictures()
 void ViewerWindow::placePicture(const Stage& stage)
 {
     const Framing framing = resolved(session_.state.framing, stage.picture, stage.area);
-    const int width = stage.picture.x, column = stage.wipeColumn.value_or(width);
     if (comparison_.picture() != nullptr) {
-        placed_.push_back({comparison_.picture(), 0, width, framing, stage.area});
+        placed_.push_back({comparison_.picture(), 0, stage.picture.x, framing, stage.area});
         return;
     }
-    placed_.push_back({&pictures_.main(), 0, column, framing, stage.area});
+    const auto place = [&](const Texture& texture) {
+        return seen_ ? placedPicture(texture, {seen_->origin, seen_->zoom.size}, stage.area)
+                     : PlacedPicture{&texture, 0, stage.picture.x, framing, stage.area};
+    };
+    PlacedPicture& main = placed_.emplace_back(place(pictures_.main()));
     if (stage.wipeColumn) {
-        placed_.push_back({pictures_.other(), column, width, framing, stage.area});
+        const int line = seen_ ? columnIn(*seen_, *stage.wipeColumn) : *stage.wipeColumn;
+        main.endColumn = line;
+        placed_.emplace_back(place(*pictures_.other())).firstColumn = line;
     }
 }
 

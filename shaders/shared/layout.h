@@ -18,6 +18,7 @@ const int kBindingResidual = 6;        // texel buffer of integers: codes of com
 const int kBindingResidualWeights = 7; // texel buffer: ResidualWeights
 
 const int kBindingPlaces = 8; // sampled 2D: xyz the pixel's point in widths of the object, see near_light.h and lens.h
+const int kBindingCover = 9;  // sampled 2D array of one layer: share of the pixel that the object covers, see zoom.h
 
 // Lights of one draw. The loop over them is unrolled, so that their fields are loaded once for all pixels.
 const int kLightsPerGroup = 4;
@@ -38,6 +39,7 @@ const int kConstantResidualFours = 1;     // residual.frag: components, in fours
 const int kConstantResidualModulated = 2; // residual.frag: pixels have labels
 const int kConstantHatched = 0;           // display.frag: stripes where alpha is positive
 const int kConstantShow = 1;              // false_colour.frag
+const int kConstantMagnified = 0;         // zoom.frag
 
 struct DirectConstants {
     vec4 view;      // viewpoint, see lens.h
@@ -78,6 +80,12 @@ struct ResidualConstants {
     int materials; // pixels of others are not shown
     int firstRow;  // of the surface, in the target's row 0
     int width;     // pixels, of the surface
+};
+
+// Of zoom.frag, which reduces a picture.
+struct ZoomConstants {
+    vec2 origin; // of the target's top left corner, in pixels of the picture
+    float scale; // the target's pixels a pixel of the picture
 };
 
 struct DisplayConstants {

@@ -83,7 +83,7 @@ start_display 2560x1440
 "$set_density" 192
 open_window "$work/bumpy.nacre" --size 730x694
 screenshot
-convert "$shot" -filter point -resize 200% "$work/twice.png"
+"$nacre" render --state "$(state_of "$shot")" --scale 2 -o "$work/twice.png" --quiet --force
 check "at 192 dots an inch panels take twice the pixels" screen_shows "$work/twice.png" 1460x1388+500+0
 drag 1 2260 300 2200 260 2160 220; screenshot
 far=$(directions "$shot")

@@ -132,6 +132,15 @@ press d; screenshot
 check "D turns it on again" cmp "$layer" "$shot"
 check "no message of Vulkan's validation with a residual layer" quits_quietly
 
+for fitted in 365x347:2 1460x1388:0.5; do
+    shots=$work/shots${fitted##*:}; rm -rf "$shots"; mkdir -p "$shots"
+    open_window "$work/bumpy.nacre" --size "${fitted%%:*}"
+    screenshot
+    "$nacre" render --state "$(state_of "$shot")" --scale "${fitted##*:}" -o "$work/scaled.png" --quiet --force
+    check "${fitted%%:*} is seen as render --scale ${fitted##*:} makes it" screen_shows "$work/scaled.png" "$picture"
+    check "no message of Vulkan's validation there" quits_quietly
+done
+
 unset DISPLAY
 code=0; "$nacre" view "$work/bumpy.nacre" 2>"$work/err" || code=$?
 check "without a display it says so" test "$code" = 3

@@ -1,0 +1,67 @@
+#include "engine/gpu/canvas.h"
+
+namespace nacre {
+
+void Canvas::dropPixels()
+{
+    pixels_.reset();
+    directFrame.reset();
+    isStale = true;
+}
+
+void Canvas::dropPicture()
+{
+    ballFrame.reset();
+    codes_.reset();
+    isStale = true;
+}
+
+const PixelTextures& Canvas::pixels(const Surface& surface, bool plain)
+{
+    if (!pixels_) {
+        pixels_ = uploadPixels(context_, surface, plain, Precision::compact);
+    }
+    return *pixels_;
+}
+
+void Canvas::draw(const Surface& surface, const std::function<void(VkCommandBuffer, const Texture&)>& record)
+{
+    const NormalMap& normals = surface.normals;
+    if (!codes_) {
+        codes_ = makeTarget(context_, {static_cast<uint32_t>(normals.width), static_cast<uint32_t>(normals.height), 1},
+                            kCodeFormat);
+    }
+    context_.run([&](VkCommandBuffer commands) {
+        imageBarrier(commands, codes_->image(), kDiscarded, kDrawnTo);
+        record(commands, *codes_);
+        imageBarrier(commands, codes_->image(), kDrawnTo, kCopiedFrom);
+    });
+    isStale = false;
+}
+
+VkDeviceSize Canvas::bytes() const
+{
+    return ballFrame.bytes() + directFrame.bytes() + (pixels_ ? pixels_->bytes() : 0) + (codes_ ? codes_->bytes() : 0);
+}
+
+Image readCodes(const Context& context, const Texture& codes)
+{
+    const VkExtent3D extent = codes.extent();
+    const Buffer readback(context, VkDeviceSize{4} * extent.width * extent.height, VK_BUFFER_USAGE_TRANSFER_DST_BIT);
+    context.run([&](VkCommandBuffer commands) {
+        const VkBufferImageCopy copy{.imageSubresource = {.aspectMask = VK_IMAGE_ASPECT_COLOR_BIT, .layerCount = 1},
+                                     .imageExtent = extent};
+        vkCmdCopyImageToBuffer(commands, codes.image(), kCopiedFrom.layout, readback.get(), 1, &copy);
+        makeVisibleToHost(commands, readback);
+    });
+    Image picture(static_cast<int>(extent.width), static_cast<int>(extent.height), 3);
+    const auto* bytes = static_cast<const uint8_t*>(readback.mapped());
+    for (size_t i = 0; i < picture.pixelCount(); ++i) {
+        for (size_t c = 0; c < 3; ++c) {
+            picture.values[3 * i + c] = static_cast<float>(bytes[4 * i + c]) / 255.0f;
+        }
+    }
+    return picture;
+}
+
+} // namespace nacre
