@@ -5,7 +5,9 @@ set -euo pipefail
 cd "$(dirname "$0")/.."
 . scripts/window_driver.sh
 set_stage "${1:-build/release/app/nacre}"
-lights=(--light 0.3,0.4,0.87 --light=-0.6,0.2,0.8,0.3,0.5,1 --light 0.5,-0.5,0.7,0.8,0.6,0.3 --light=0,0.7,0.7,0.2,0.2,0.2)
+state=$work/ball_path.json # cast shadows would be drawn directly
+echo '{"format": "nacre scene", "version": 1, "shadows": false}' >"$state"
+lights=(--state "$state" --light 0.3,0.4,0.87 --light=-0.6,0.2,0.8,0.3,0.5,1 --light 0.5,-0.5,0.7,0.8,0.6,0.3 --light=0,0.7,0.7,0.2,0.2,0.2)
 
 ticks() { awk '{ print $14 + $15 }' "/proc/$window_id/stat"; } # hundredths of a second of one core
 

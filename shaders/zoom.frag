@@ -3,10 +3,11 @@
 // engine/surface/zoom.cpp is the twin of this file on the CPU.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
+#extension GL_EXT_control_flow_attributes : require
 #include "shared/layout.h"
 #include "shared/zoom.h"
 
-layout(constant_id = kConstantMagnified) const bool kMagnified = false;
+layout(constant_id = kConstantReach) const int kReach = 0; // 0: magnified
 
 layout(binding = kBindingInput) uniform sampler2D picture;
 layout(binding = kBindingCover) uniform sampler2DArray cover; // of one layer
@@ -17,20 +18,34 @@ layout(scalar, push_constant) uniform Constants
 
 layout(location = 0) out vec4 code;
 
+vec3 meanLight(ivec2 pixel)
+{
+    ivec2 size = textureSize(picture, 0);
+    float left = borderOfReduced(constants.origin.x, constants.scale, pixel.x, size.x);
+    float right = borderOfReduced(constants.origin.x, constants.scale, pixel.x + 1, size.x);
+    float top = borderOfReduced(constants.origin.y, constants.scale, pixel.y, size.y);
+    float bottom = borderOfReduced(constants.origin.y, constants.scale, pixel.y + 1, size.y);
+    ivec2 first = ivec2(int(left), int(top));
+    vec3 light = vec3(0.0);
+    [[unroll]] for (int row = 0; row < kReach; ++row) {
+        float down = shareOfReduced(top, bottom, first.y + row);
+        [[unroll]] for (int column = 0; column < kReach; ++column) {
+            float share = down * shareOfReduced(left, right, first.x + column);
+            ivec2 at = min(first + ivec2(column, row), size - 1); // beyond, shares are 0
+            light += share * lightOfCode(texelFetch(picture, at, 0).rgb);
+        }
+    }
+    return light;
+}
+
 void main()
 {
     ivec2 pixel = ivec2(gl_FragCoord.xy);
     vec3 light = vec3(0.0);
-    if (kMagnified) {
-        light = texelFetch(cover, ivec3(pixel, 0), 0).r * lightOfCode(texelFetch(picture, pixel, 0).rgb);
+    if (kReach > 0) {
+        light = meanLight(pixel);
     } else {
-        ReducedPixels seen = reducedPixels(constants.origin, constants.scale, pixel, textureSize(picture, 0));
-        for (int row = seen.first.y; row < seen.end.y; ++row) {
-            for (int column = seen.first.x; column < seen.end.x; ++column) {
-                ivec2 at = ivec2(column, row);
-                light += reducedWeight(seen, at) * lightOfCode(texelFetch(picture, at, 0).rgb);
-            }
-        }
+        light = texelFetch(cover, ivec3(pixel, 0), 0).r * lightOfCode(texelFetch(picture, pixel, 0).rgb);
     }
     code = vec4(codeOfLight(light), 1.0);
 }

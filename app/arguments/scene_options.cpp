@@ -49,7 +49,8 @@ void SceneOptions::addTo(CLI::App& command, const Help& help)
     addParsed(command, "--layer", &Description::residual, residualUseFromName, help.layer);
     command.add_option("--state", state_, help.state);
     command
-        .add_option("--device", device, "Vulkan device: number or part of its name in nacre info (default: the first)")
+        .add_option("--device", device,
+                    "Vulkan device: number or part of its name in nacre info (default: $NACRE_DEVICE, else the best)")
         ->group("Running");
 }
 

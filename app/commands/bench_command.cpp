@@ -274,8 +274,9 @@ void addBenchCommand(CLI::App& app)
         ->capture_default_str();
     command->add_flag("--bake", arguments->bake,
                       "Table from a million samples, against the search for their neighbours alone, instead of frames");
-    command->add_option("--device", arguments->device,
-                        "Vulkan device: number or part of its name in nacre info (default: the first)");
+    command->add_option(
+        "--device", arguments->device,
+        "Vulkan device: number or part of its name in nacre info (default: $NACRE_DEVICE, else the best)");
     command->add_option("--json", arguments->json, "File for the figures as JSON")->option_text("OUT.json");
     command->add_flag("--force", arguments->force, "Replacement of an existing output");
     command->footer("Example:\n  nacre bench --size 1920x1080 --json bench.json");

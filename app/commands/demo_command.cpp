@@ -223,8 +223,9 @@ void addDemoCommand(CLI::App& app)
     command->add_option("-o,--output", arguments->folder, "Folder for the capture, the surface, demo.png and demo.html")
         ->option_text("OUT")
         ->capture_default_str();
-    command->add_option("--device", arguments->device,
-                        "Vulkan device: number or part of its name in nacre info (default: the first)");
+    command->add_option(
+        "--device", arguments->device,
+        "Vulkan device: number or part of its name in nacre info (default: $NACRE_DEVICE, else the best)");
     command->add_option("--threads", arguments->threads, "Number of threads (default: all)");
     command->add_flag("--force", arguments->force, "Replacement of an existing folder");
     command->add_flag("--quiet", arguments->quiet, "No messages but the paths of picture and page");

@@ -26,8 +26,8 @@ void printDevices()
     }
     for (size_t i = 0; i < devices.size(); ++i) {
         const DeviceInfo& device = devices[i];
-        fmt::print("device {}     {}\ntype         {}\ndriver       {}\nVulkan       {}\n", i, device.name, device.type,
-                   device.driver, device.apiVersion);
+        fmt::print("device {}     {}\ntype         {}\ndriver       {}\nVulkan       {}\nlimits       {}\n", i,
+                   device.name, device.type, device.driver, device.apiVersion, device.limits);
         if (!device.missing.empty()) {
             fmt::print("cannot draw: lacks {}\n", device.missing);
         }

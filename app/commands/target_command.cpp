@@ -83,8 +83,9 @@ void addTargetCommand(CLI::App& app)
         "--height-scale", arguments->heightScale,
         "Height from black to white of a height map: pixels, or a share of the width in % (default: 5%; "
         "floats are pixels)");
-    command->add_option("--device", arguments->device,
-                        "Vulkan device: number or part of its name in nacre info (default: the first)");
+    command->add_option(
+        "--device", arguments->device,
+        "Vulkan device: number or part of its name in nacre info (default: $NACRE_DEVICE, else the best)");
     command->add_option("--threads", arguments->threads, "Number of threads for make:NAME (default: all)");
     command->add_flag("--force", arguments->force, "Replacement of an existing output");
     command->add_flag("--quiet", arguments->quiet, "No messages but warnings");

@@ -278,8 +278,9 @@ void addTransferCommand(CLI::App& app)
     command->add_option("-o,--output", arguments->output, "Folder for sheet_RIG.png and every single picture")
         ->option_text("OUT")
         ->required();
-    command->add_option("--device", arguments->device,
-                        "Vulkan device: number or part of its name in nacre info (default: the first)");
+    command->add_option(
+        "--device", arguments->device,
+        "Vulkan device: number or part of its name in nacre info (default: $NACRE_DEVICE, else the best)");
     command->add_option("--threads", arguments->threads, "Number of threads (0: all)")
         ->check(CLI::NonNegativeNumber)
         ->capture_default_str();

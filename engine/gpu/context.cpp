@@ -12,7 +12,7 @@ VkPhysicalDevice choosePhysicalDevice(const Instance& instance, const std::strin
     for (VkPhysicalDevice device : devices) {
         infos.push_back(describeDevice(device));
     }
-    return devices[chooseDevice(infos, selector)];
+    return devices[chooseDevice(infos, selector.empty() ? deviceOfEnvironment() : selector)];
 }
 
 VkDevice createDevice(VkPhysicalDevice physicalDevice, uint32_t queueFamily, bool presents)

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <cstdlib>
 #include <cstring>
 
 #include <fmt/format.h>
@@ -80,6 +81,27 @@ std::string missingFrom(VkPhysicalDevice device, uint32_t apiVersion)
     return fmt::format("{}", fmt::join(missing, ", "));
 }
 
+std::string limitsOf(VkPhysicalDevice device, const VkPhysicalDeviceLimits& limits)
+{
+    VkPhysicalDeviceMemoryProperties memory;
+    vkGetPhysicalDeviceMemoryProperties(device, &memory);
+    VkDeviceSize own = 0;
+    bool isShared = false; // the host sees all of it
+    for (uint32_t i = 0; i < memory.memoryTypeCount; ++i) {
+        constexpr VkMemoryPropertyFlags kOwn = VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT;
+        if ((memory.memoryTypes[i].propertyFlags & kOwn) != 0) {
+            const VkDeviceSize size = memory.memoryHeaps[memory.memoryTypes[i].heapIndex].size;
+            const bool isSeen = (memory.memoryTypes[i].propertyFlags & VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT) != 0;
+            isShared = size > own ? isSeen : isShared || (size == own && isSeen);
+            own = std::max(own, size);
+        }
+    }
+    return fmt::format("pictures to {}, {} bits of filter, {:.1f} GiB of memory{}, {} push constant bytes",
+                       limits.maxImageDimension2D, limits.subTexelPrecisionBits,
+                       static_cast<double>(own) / (1ull << 30), isShared ? " that the host sees" : "",
+                       limits.maxPushConstantsSize);
+}
+
 std::string numberedNames(const std::vector<DeviceInfo>& devices)
 {
     std::vector<std::string> names;
@@ -153,6 +175,7 @@ DeviceInfo describeDevice(VkPhysicalDevice device)
             .type = typeName(properties.properties.deviceType),
             .apiVersion = fmt::format("{}.{}.{}", VK_API_VERSION_MAJOR(version), VK_API_VERSION_MINOR(version),
                                       VK_API_VERSION_PATCH(version)),
+            .limits = limitsOf(device, properties.properties.limits),
             .missing = missingFrom(device, version)};
 }
 
@@ -164,6 +187,12 @@ std::vector<DeviceInfo> listDevices()
         devices.push_back(describeDevice(device));
     }
     return devices;
+}
+
+std::string deviceOfEnvironment()
+{
+    const char* value = std::getenv("NACRE_DEVICE");
+    return value != nullptr ? value : "";
 }
 
 size_t chooseDevice(const std::vector<DeviceInfo>& devices, const std::string& selector)

@@ -13,6 +13,7 @@ struct DeviceInfo {
     std::string driver;     // name and version
     std::string type;       // "discrete GPU", "integrated GPU", "virtual GPU", "CPU", "other"
     std::string apiVersion; // e.g. "1.3.230"
+    std::string limits;     // of pictures, filters, memory; one line
     std::string missing;    // what the renderer needs and the device lacks; empty where it will do
 };
 
@@ -34,6 +35,9 @@ struct DeviceFeatures {
     DeviceFeatures(const DeviceFeatures&) = delete;
     DeviceFeatures& operator=(const DeviceFeatures&) = delete;
 };
+
+// $NACRE_DEVICE, or empty.
+std::string deviceOfEnvironment();
 
 // Index of the device to use. Empty selector: the best that will do, discrete before integrated before the CPU. A
 // number counts from 0; anything else is part of a name, any case. Throws Error: no device at all; nothing fits the

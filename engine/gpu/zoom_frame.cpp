@@ -3,6 +3,7 @@
 #include <array>
 
 #include "shared/layout.h"
+#include "shared/zoom.h"
 #include "zoom_frag.h"
 
 namespace nacre {
@@ -10,7 +11,7 @@ namespace {
 
 constexpr std::array kZoomBindings = {ShaderBinding{kBindingInput, kTextureInput},
                                       ShaderBinding{kBindingCover, kTextureInput}};
-static_assert(kConstantMagnified == 0);
+static_assert(kConstantReach == 0);
 
 VkExtent3D extentOf(const Zoom& zoom)
 {
@@ -41,7 +42,7 @@ void ZoomFrame::set(const Zoom& zoom, std::span<const uint8_t> cover)
 
 void ZoomFrame::draw(const Texture& picture)
 {
-    const Pipeline& pipeline = pipelines_.with({zoom_.magnifies()});
+    const Pipeline& pipeline = pipelines_.with({zoom_.magnifies() ? 0 : reachOfReduced(zoom_.scale)});
     const std::array inputs = {textureInput(kBindingInput, nearest_, picture),
                                textureInput(kBindingCover, nearest_, cover_)};
     context_.run([&](VkCommandBuffer commands) {

@@ -157,18 +157,36 @@ float rounded(float code)
     return std::round(255 * code) / 255;
 }
 
+// The pixels of a row or column that one of it reduced meets, and their shares.
+struct Shares {
+    int first = 0;
+    std::vector<float> of;
+};
+
+Shares sharesOf(float origin, float scale, int pixel, int count)
+{
+    const float low = borderOfReduced(origin, scale, pixel, count);
+    const float high = borderOfReduced(origin, scale, pixel + 1, count);
+    Shares shares{.first = static_cast<int>(low), .of = {}};
+    for (int k = shares.first; k < std::min(shares.first + reachOfReduced(scale), count); ++k) {
+        shares.of.push_back(shareOfReduced(low, high, k));
+    }
+    return shares;
+}
+
 // The mean of what `value` makes of the picture's pixels.
 template <class Value> Image reduced(const Image& picture, const Zoom& zoom, const Value& value)
 {
     Image mean(zoom.size.x, zoom.size.y, 3);
     for (int y = 0; y < mean.height; ++y) {
+        const Shares rows = sharesOf(zoom.origin.y, zoom.scale, y, picture.height);
         for (int x = 0; x < mean.width; ++x) {
-            const ReducedPixels from =
-                reducedPixels(zoom.origin, zoom.scale, {x, y}, ivec2(picture.width, picture.height));
+            const Shares columns = sharesOf(zoom.origin.x, zoom.scale, x, picture.width);
             glm::vec3 sum(0);
-            for (int row = from.first.y; row < from.end.y; ++row) {
-                for (int column = from.first.x; column < from.end.x; ++column) {
-                    sum += reducedWeight(from, {column, row}) * value(picture.rgb(column, row));
+            for (size_t i = 0; i < rows.of.size(); ++i) {
+                for (size_t j = 0; j < columns.of.size(); ++j) {
+                    sum += rows.of[i] * columns.of[j] *
+                           value(picture.rgb(columns.first + static_cast<int>(j), rows.first + static_cast<int>(i)));
                 }
             }
             mean.setRgb(x, y, sum);

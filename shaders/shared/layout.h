@@ -39,7 +39,7 @@ const int kConstantResidualFours = 1;     // residual.frag: components, in fours
 const int kConstantResidualModulated = 2; // residual.frag: pixels have labels
 const int kConstantHatched = 0;           // display.frag: stripes where alpha is positive
 const int kConstantShow = 1;              // false_colour.frag
-const int kConstantMagnified = 0;         // zoom.frag
+const int kConstantReach = 0;             // zoom.frag: pixels along a side of which a mean is taken
 
 struct DirectConstants {
     vec4 view;      // viewpoint, see lens.h

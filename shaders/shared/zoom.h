@@ -23,29 +23,23 @@ NACRE_FN float coverOfPixel(float neighbours, float scale)
     return clamp(0.5f + (neighbours - 0.5f) * scale, 0.0f, 1.0f);
 }
 
-// What of a picture lies in one pixel of it reduced: pixels [first, end) between two corners.
-struct ReducedPixels {
-    vec2 low, high;
-    ivec2 first, end;
-};
-
-// `origin`: top left corner of the reduced part, in pixels of the picture.
-NACRE_FN ReducedPixels reducedPixels(vec2 origin, float scale, ivec2 pixel, ivec2 size)
+// Along one axis, the border before a pixel of a picture reduced, in pixels of the picture, of which there are `count`.
+// `origin`: that of the reduced part.
+NACRE_FN float borderOfReduced(float origin, float scale, int pixel, int count)
 {
-    ReducedPixels seen;
-    seen.low = max(origin + vec2(pixel) / scale, vec2(0.0f));
-    seen.high = min(origin + vec2(pixel + 1) / scale, vec2(size));
-    seen.first = ivec2(floor(seen.low));
-    seen.end = ivec2(ceil(seen.high));
-    return seen;
+    return clamp(origin + float(pixel) / scale, 0.0f, float(count));
 }
 
-// Share of one of its pixels in the mean.
-NACRE_FN float reducedWeight(ReducedPixels seen, ivec2 pixel)
+// Share of what lies between two borders that one of the picture's pixels has.
+NACRE_FN float shareOfReduced(float low, float high, int pixel)
 {
-    vec2 part = min(seen.high, vec2(pixel + 1)) - max(seen.low, vec2(pixel));
-    vec2 all = seen.high - seen.low;
-    return part.x * part.y / (all.x * all.y);
+    return max(min(high, float(pixel + 1)) - max(low, float(pixel)), 0.0f) / (high - low);
+}
+
+// Pixels that a reduced one meets at most.
+NACRE_FN int reachOfReduced(float scale)
+{
+    return int(1.0f / scale) + 2;
 }
 
 NACRE_SHARED_END

@@ -17,8 +17,11 @@ namespace nacre::test {
 namespace {
 namespace fs = std::filesystem;
 
-// Goldens are of Mesa's software rasteriser, which is everywhere.
-constexpr const char* kDevice = "llvmpipe";
+// Goldens are of Mesa's software rasteriser, which is everywhere; another device is held to the same bounds.
+std::string device()
+{
+    return deviceOfEnvironment().empty() ? "llvmpipe" : deviceOfEnvironment();
+}
 
 // The state files, by their stems.
 std::vector<std::string> goldenNames()
@@ -35,7 +38,7 @@ std::vector<std::string> goldenNames()
 
 class Golden : public GpuTest, public testing::WithParamInterface<std::string> {
 protected:
-    static void SetUpTestSuite() { open(kDevice); }
+    static void SetUpTestSuite() { open(device()); }
 
     static fs::path kept(const std::string& extension)
     {
@@ -59,7 +62,7 @@ TEST_P(Golden, IsDrawn)
     fs::create_directories(folder);
     const fs::path state = stateIn(folder), actual = folder / "actual.png";
     const ProgramRun run = runNacre(
-        {"render", "--state", state.string(), "--fits", folder.string(), "--device", kDevice, "-o", actual.string()},
+        {"render", "--state", state.string(), "--fits", folder.string(), "--device", device(), "-o", actual.string()},
         "NACRE_VALIDATION=1");
     ASSERT_EQ(run.exitCode, 0) << run.err;
     EXPECT_EQ(run.err.find("vulkan validation:"), std::string::npos) << run.err;
@@ -68,7 +71,7 @@ TEST_P(Golden, IsDrawn)
     const testing::AssertionResult result = bless ? blessGolden(actual, files) : matchesGolden(actual, files);
     std::printf("  %s: %s\n", GetParam().c_str(), result.message());
     EXPECT_TRUE(result) << "again: nacre render --state " << state.string() << " --fits " << folder.string()
-                        << " --device " << kDevice << " -o again.png";
+                        << " --device " << device() << " -o again.png";
 }
 
 // The same state drawn in this process, so that a scene can be altered before it is drawn.

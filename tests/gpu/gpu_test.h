@@ -10,6 +10,8 @@
 
 namespace nacre::test {
 
+inline std::string typeOfTestedDevice; // as DeviceInfo has it
+
 // Tests on one validated device; a message of the validation layer fails the test that caused it. Where there is no
 // device they fail and say why: a renderer whose tests were skipped has not been tested.
 class GpuTest : public testing::Test {
@@ -30,6 +32,7 @@ protected:
         setenv("NACRE_VALIDATION", "1", 1);
         try {
             context = std::make_unique<Context>(selector);
+            typeOfTestedDevice = context->info().type;
         } catch (const Error& error) {
             whyNoContext_ = error.what();
         }

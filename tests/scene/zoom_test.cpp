@@ -33,7 +33,8 @@ double sumOf(const std::vector<uint8_t>& codes)
 TEST(Zoom, NormalsBetweenPixelsAreTheSpheres)
 {
     constexpr float kScale = 5;
-    const MagnifiedSurface near = magnified(halvedSphere(), wholeZoom(kSide, kSide, kScale));
+    const Surface sphere = transferredSurface(sphereNormalMap(kSide), Material{});
+    const MagnifiedSurface near = magnified(sphere, wholeZoom(kSide, kSide, kScale));
     size_t seen = 0;
     for (size_t i = 0; i < near.cover.size(); ++i) {
         const glm::vec2 pixel(i % (kSide * 5), i / (kSide * 5));
