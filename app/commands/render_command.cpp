@@ -5,6 +5,7 @@
 #include "app/arguments/scene_options.h"
 #include "app/commands/commands.h"
 #include "app/materials/render_output.h"
+#include "app/materials/target_source.h"
 #include "engine/loading/scene_loading.h"
 #include "engine/scene/scene_names.h"
 #include "engine/scene/scene_residual.h"
@@ -78,7 +79,7 @@ void runRender(const RenderArguments& arguments)
     const RenderOutput output = checkedOutput(description, arguments.output, arguments.scale, arguments.force);
     requireConsistent(description);
     const Context context(arguments.scene.device);
-    const Scene scene = loadScene(description, arguments.scene.fits, context, arguments.quiet);
+    const Scene scene = loadScene(description, sceneInputs(arguments.scene.fits), context, arguments.quiet);
     Renderer renderer(context);
     renderer.setSurface(scene.surface);
     renderer.setView(scene.view);
@@ -99,7 +100,9 @@ void addRenderCommand(CLI::App& app)
         *command,
         {.material = "Material instead of SURFACE, for --onto: .binary (MERL), .bsdf (RGL), .exr, "
                      "NAME.nacre[#MATERIAL] or a model",
-         .onto = "Shape for the first material: camera-frame or tangent-space normals (.exr, .png) or NAME.nacre",
+         .onto =
+             "Shape for the first material: camera-frame or tangent-space normals (.exr, .png), NAME.nacre, a mesh or "
+             "make:NAME",
          .light = "Light: direction x,y,z[,r,g,b] with irradiance [1]; captured:N; near:WIDTHS: in front of x,y,z puts "
                   "it so many widths of the object away; soft:DEGREES: in front spreads it. Repeatable (default: "
                   "captured:1)",

@@ -202,13 +202,8 @@ TargetReport targetOfSpecification(const TargetCommandArguments& arguments)
            {{"--normal-y", !arguments.normalY.empty()}, {"--height-scale", !arguments.heightScale.empty()}});
     const PictureSize size = sizeOf(arguments);
     Stopwatch watch;
-    Target target = makeTarget(arguments.source.substr(std::string_view(kMakePrefix).size()), size.width, size.height,
-                               arguments.threads);
     TargetReport report;
-    report.surface.normals = std::move(target.normals);
-    report.surface.height = std::move(target.height);
-    report.surface.labels = std::move(target.labels);
-    report.surface.parts = std::move(target.parts);
+    report.surface = generatedShape(arguments.source, size, arguments.threads);
     report.stages.push_back({"make", watch.lap()});
     return report;
 }
@@ -221,10 +216,28 @@ bool isPicture(const fs::path& file)
 
 } // namespace
 
+Surface generatedShape(const std::string& source, const PictureSize& size, int threads)
+{
+    Target target = makeTarget(source.substr(std::string_view(kMakePrefix).size()), size.width, size.height, threads);
+    Surface surface;
+    surface.normals = std::move(target.normals);
+    surface.height = std::move(target.height);
+    surface.labels = std::move(target.labels);
+    surface.parts = std::move(target.parts);
+    return surface;
+}
+
+SceneInputs sceneInputs(const std::filesystem::path& fits)
+{
+    return {.fits = fits, .makeShape = [](const std::string& source, const PictureSize& size) {
+                return generatedShape(source, size, 0);
+            }};
+}
+
 TargetReport targetFromSource(const TargetCommandArguments& arguments)
 {
     normalYOf(arguments);
-    const bool isMade = arguments.source.starts_with(kMakePrefix);
+    const bool isMade = isGenerated(arguments.source);
     if (!isMade && isMeshFile(arguments.source)) {
         return targetOfMesh(arguments);
     }

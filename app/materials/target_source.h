@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/loading/scene_loading.h"
 #include "engine/scene/picture_size.h"
 #include "engine/surface/surface.h"
 
@@ -41,5 +42,11 @@ struct TargetReport {
 // SOURCE is a mesh, a height or normal map, NAME.nacre or make:SPECIFICATION. Throws Error: usage where an option has
 // nothing to do with it, data where it cannot be used.
 TargetReport targetFromSource(const TargetCommandArguments& arguments);
+
+// The surface of make:SPECIFICATION. Throws Error (usage) where it is not understood.
+Surface generatedShape(const std::string& source, const PictureSize& size, int threads);
+
+// With the generated shapes.
+SceneInputs sceneInputs(const std::filesystem::path& fits);
 
 } // namespace nacre

@@ -54,14 +54,14 @@ LightRig lightOfRig(const fs::path& file, const std::string& digits)
 
 constexpr int kMostEnvironmentLights = 100000;
 
+constexpr PictureSize kGeneratedSize{512, 512}; // unless the scene has another: a statue takes a second or two
+
 // The normals of `onto`, dressed in the material.
-Surface surfaceOnto(const SceneDescription& scene, const Material& material)
+Surface surfaceOnto(const SceneDescription& scene, const SceneInputs& inputs, const Material& material)
 {
     const std::filesystem::path& onto = scene.onto;
-    if (onto.string().rfind("make:", 0) == 0) {
-        throw Error(onto, "is no normal map yet",
-                    fmt::format("T.nacre of nacre target {} -o T.nacre, or nacre transfer", onto.string()),
-                    Error::kUsage);
+    if (isGenerated(onto) && inputs.makeShape) {
+        return transferredSurface(inputs.makeShape(onto.string(), scene.size.value_or(kGeneratedSize)), material);
     }
     if (!std::filesystem::exists(onto)) {
         throw Error(onto, "does not exist", "a NAME.nacre or a picture of normals");
@@ -72,13 +72,13 @@ Surface surfaceOnto(const SceneDescription& scene, const Material& material)
 }
 
 // The surface as measured; a named material as a surface without pixels.
-Surface loadMeasured(const SceneDescription& scene, const std::filesystem::path& fits)
+Surface loadMeasured(const SceneDescription& scene, const SceneInputs& inputs)
 {
     if (scene.material.empty()) {
         return loadSurface(scene.surface);
     }
     Surface surface;
-    surface.materials.push_back(loadMaterial(scene.material, fitsFolderFrom(fits)));
+    surface.materials.push_back(loadMaterial(scene.material, fitsFolderFrom(inputs.fits)));
     return surface;
 }
 
@@ -100,7 +100,8 @@ void requireMaterial(const Surface& measured, const fs::path& file)
 }
 
 // The measured one, or its first material on other normals; fitted into the size where given.
-Surface drawnSurfaceOf(const SceneDescription& scene, Surface measured, const Context& context)
+Surface drawnSurfaceOf(const SceneDescription& scene, const SceneInputs& inputs, Surface measured,
+                       const Context& context)
 {
     std::vector<CapturedLight> captured = measured.lights;
     if (isMeshFile(scene.onto)) {
@@ -112,7 +113,7 @@ Surface drawnSurfaceOf(const SceneDescription& scene, Surface measured, const Co
     }
     if (!scene.onto.empty()) {
         requireMaterial(measured, scene.surface);
-        measured = surfaceOnto(scene, measured.materials.front());
+        measured = surfaceOnto(scene, inputs, measured.materials.front());
     } else if (measured.materials.empty()) {
         throw Error(scene.surface, "is a target without a material",
                     "a material to put onto it, or another surface's onto it");
@@ -207,21 +208,22 @@ void castShadows(Surface& surface, const std::filesystem::path& source)
 
 namespace {
 
-LoadedSurface dressedSurface(const SceneDescription& scene, Surface measured, const Context& context)
+LoadedSurface dressedSurface(const SceneDescription& scene, const SceneInputs& inputs, Surface measured,
+                             const Context& context)
 {
     LoadedSurface loaded;
     if (isMeshFile(scene.onto)) {
         loaded.mesh = std::make_shared<const Mesh>(loadMesh(scene.onto));
     }
-    loaded.surface = drawnSurfaceOf(scene, std::move(measured), context);
+    loaded.surface = drawnSurfaceOf(scene, inputs, std::move(measured), context);
     return loaded;
 }
 
 } // namespace
 
-LoadedSurface loadSurfaceOrMesh(const SceneDescription& scene, const fs::path& fits, const Context& context)
+LoadedSurface loadSurfaceOrMesh(const SceneDescription& scene, const SceneInputs& inputs, const Context& context)
 {
-    return dressedSurface(scene, loadMeasured(scene, fits), context);
+    return dressedSurface(scene, inputs, loadMeasured(scene, inputs), context);
 }
 
 std::unique_ptr<MeshRaster> meshRasterFor(const Context& context, std::shared_ptr<const Mesh> mesh,
@@ -231,9 +233,9 @@ std::unique_ptr<MeshRaster> meshRasterFor(const Context& context, std::shared_pt
     return std::make_unique<MeshRaster>(context, std::move(mesh), options.width, options.height);
 }
 
-void drawMesh(MeshRaster& raster, const SceneDescription& scene, Surface& surface)
+void drawMesh(MeshRaster& raster, const SceneDescription& scene, Surface& surface, bool isCoarse)
 {
-    Surface seen = raster.draw(fittedView(*raster.mesh(), meshOptionsOf(scene)));
+    Surface seen = raster.draw(fittedView(*raster.mesh(), meshOptionsOf(scene)), isCoarse);
     surface.labels.assign(seen.labels.size(), Surface::kNoMaterial);
     for (size_t i = 0; i < seen.labels.size(); ++i) {
         surface.labels[i] = seen.normals.confidence[i] > 0 ? 0 : Surface::kNoMaterial;
@@ -257,9 +259,9 @@ void drawMeshOnce(const SceneDescription& scene, const Context& context, LoadedS
 
 } // namespace
 
-Surface loadDrawnSurface(const SceneDescription& scene, const std::filesystem::path& fits, const Context& context)
+Surface loadDrawnSurface(const SceneDescription& scene, const SceneInputs& inputs, const Context& context)
 {
-    LoadedSurface loaded = loadSurfaceOrMesh(scene, fits, context);
+    LoadedSurface loaded = loadSurfaceOrMesh(scene, inputs, context);
     drawMeshOnce(scene, context, loaded);
     return std::move(loaded.surface);
 }
@@ -279,14 +281,13 @@ std::vector<Light> lightsOfScene(const SceneDescription& scene, const Environmen
     return lights;
 }
 
-Scene loadScene(const SceneDescription& description, const std::filesystem::path& fits, const Context& context,
-                bool quiet)
+Scene loadScene(const SceneDescription& description, const SceneInputs& inputs, const Context& context, bool quiet)
 {
     Scene scene;
     scene.view = viewDirectionOf(description);
-    Surface measured = loadMeasured(description, fits);
+    Surface measured = loadMeasured(description, inputs);
     const bool hasResidual = !measured.residual.empty();
-    LoadedSurface loaded = dressedSurface(description, std::move(measured), context);
+    LoadedSurface loaded = dressedSurface(description, inputs, std::move(measured), context);
     drawMeshOnce(description, context, loaded);
     scene.surface = std::move(loaded.surface);
     requireResidual(scene.surface, scene.view, description.residual);

@@ -1,4 +1,5 @@
 #pragma once
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -30,6 +31,13 @@ void requireConsistent(const SceneDescription& scene);
 // are integrated, and stderr says so. Throws Error (usage) for a bare normal map.
 void castShadows(Surface& surface, const std::filesystem::path& source);
 
+// What scenes are loaded from beside the files that they name.
+struct SceneInputs {
+    std::filesystem::path fits{}; // folder of fitted models; empty: fitsFolderFrom
+    // The shape of make:SPECIFICATION. Empty: no such shapes.
+    std::function<Surface(const std::string& specification, const PictureSize& size)> makeShape{};
+};
+
 // A surface to draw. Of one on a mesh the pixels are to be drawn by drawMesh, at any turn.
 struct LoadedSurface {
     Surface surface;
@@ -37,20 +45,19 @@ struct LoadedSurface {
 };
 
 // As loadDrawnSurface, without drawing a mesh.
-LoadedSurface loadSurfaceOrMesh(const SceneDescription& scene, const std::filesystem::path& fits,
-                                const Context& context);
+LoadedSurface loadSurfaceOrMesh(const SceneDescription& scene, const SceneInputs& inputs, const Context& context);
 
 // The surface's pixels: normals, heights and, of its first material, labels of the mesh at the scene's turn and size;
 // with horizons where it is to cast shadows. Throws Error.
-void drawMesh(MeshRaster& raster, const SceneDescription& scene, Surface& surface);
+void drawMesh(MeshRaster& raster, const SceneDescription& scene, Surface& surface, bool isCoarse = false);
 
 // For drawMesh: in the scene's size.
 std::unique_ptr<MeshRaster> meshRasterFor(const Context& context, std::shared_ptr<const Mesh> mesh,
                                           const SceneDescription& scene);
 
 // The surface, or its material or the named one on other normals, fitted into the size; with the captured lights of the
-// measured one. `fits`: the folder of fitted models, or empty (fitsFolderFrom).
-Surface loadDrawnSurface(const SceneDescription& scene, const std::filesystem::path& fits, const Context& context);
+// measured one.
+Surface loadDrawnSurface(const SceneDescription& scene, const SceneInputs& inputs, const Context& context);
 
 // All directional lights: those named, the rig's, the environment's (null: there is none, or it is not read yet).
 std::vector<Light> lightsOfScene(const SceneDescription& scene, const Environment* environment,
@@ -59,7 +66,7 @@ std::vector<Light> lightsOfScene(const SceneDescription& scene, const Environmen
 // The surface with the lights, the default one where there is none, and the view. Throws Error (usage) where the
 // residual layer by itself is asked for and there is none; says on stderr, unless quiet, where it is left out or fades
 // out.
-Scene loadScene(const SceneDescription& scene, const std::filesystem::path& fits, const Context& context, bool quiet);
+Scene loadScene(const SceneDescription& scene, const SceneInputs& inputs, const Context& context, bool quiet);
 
 // Says on stderr how much of the picture is uncertain, if any is.
 void noteUncertain(const Scene& scene);

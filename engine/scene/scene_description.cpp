@@ -64,7 +64,11 @@ class Values {
 public:
     explicit Values(fs::path folder) : folder_(std::move(folder)) {}
 
-    void read(const SceneJson& json, fs::path& value) const { value = folder_ / json.get<std::string>(); }
+    void read(const SceneJson& json, fs::path& value) const
+    {
+        const fs::path named = json.get<std::string>();
+        value = isGenerated(named) ? named : folder_ / named;
+    }
     void read(const SceneJson& json, std::string& value) const { value = json.get<std::string>(); }
     void read(const SceneJson& json, float& value) const { value = json.get<float>(); }
     void read(const SceneJson& json, int& value) const { value = json.get<int>(); }
@@ -95,6 +99,9 @@ public:
 
     SceneJson written(const fs::path& value) const
     {
+        if (isGenerated(value)) {
+            return value.string();
+        }
         const fs::path from = folder_.empty() ? fs::current_path() : fs::absolute(folder_);
         return fs::absolute(value).lexically_normal().lexically_proximate(from.lexically_normal()).string();
     }
@@ -154,7 +161,7 @@ void requireNothingLeft(const SceneJson& json, const fs::path& file, const char*
 
 fs::path absolutePath(const fs::path& path)
 {
-    fs::path whole = path.empty() ? path : fs::absolute(path).lexically_normal();
+    fs::path whole = path.empty() || isGenerated(path) ? path : fs::absolute(path).lexically_normal();
     return whole.has_filename() || whole.empty() ? whole : whole.parent_path(); // without a slash at the end
 }
 
@@ -225,6 +232,11 @@ glm::vec3 viewFromText(const std::string& text)
 glm::vec3 viewDirectionOf(const SceneDescription& scene)
 {
     return scene.view ? glm::vec3(glm::normalize(glm::dvec3(*scene.view))) : glm::vec3(0, 0, 1);
+}
+
+bool isGenerated(const fs::path& onto)
+{
+    return onto.string().starts_with("make:");
 }
 
 void makeAbsolute(SceneDescription& scene)

@@ -78,6 +78,9 @@ glm::vec3 viewDirectionOf(const SceneDescription& scene);
 // Paths and files within specifications, so that they mean the same wherever a state file lies.
 void makeAbsolute(SceneDescription& scene);
 
+// make:SPECIFICATION, a shape that the program generates, in a path's place.
+bool isGenerated(const std::filesystem::path& onto);
+
 // Gives the lights the values of the captured ones that they name, so that they can be moved from there on; where
 // nothing lights the scene, the default light.
 void resolveCaptured(SceneDescription& scene, std::span<const CapturedLight> captured);

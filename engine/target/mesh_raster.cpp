@@ -184,6 +184,7 @@ public:
     }
 
     int samplesPerSide() const { return samplesPerSide_; }
+    const Context& context() const { return context_; }
 
 private:
     // Null: the part has none. Maps of several parts are uploaded once, at the size at which they are seen.
@@ -317,10 +318,14 @@ MeshRaster::MeshRaster(const Context& context, std::shared_ptr<const Mesh> mesh,
 
 MeshRaster::~MeshRaster() = default;
 
-Surface MeshRaster::draw(const MeshView& view)
+Surface MeshRaster::draw(const MeshView& view, bool isCoarse)
 {
-    passes_->drawParts(view);
-    Surface surface = resolvedSurface(passes_->read(), view.width, view.height, passes_->samplesPerSide());
+    if (isCoarse && !coarse_) {
+        coarse_ = std::make_unique<Passes>(passes_->context(), *mesh_, view.width, view.height, 1);
+    }
+    Passes& passes = isCoarse ? *coarse_ : *passes_;
+    passes.drawParts(view);
+    Surface surface = resolvedSurface(passes.read(), view.width, view.height, passes.samplesPerSide());
     for (const MeshPart& part : mesh_->parts) {
         if (surface.parts.size() < Surface::kNoMaterial) {
             surface.parts.push_back(part.name);

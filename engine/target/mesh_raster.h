@@ -20,12 +20,13 @@ public:
     ~MeshRaster();
 
     const std::shared_ptr<const Mesh>& mesh() const { return mesh_; }
-    Surface draw(const MeshView& view); // of that size
+    // Of that size. Coarse: by one sample a pixel, while the mesh moves.
+    Surface draw(const MeshView& view, bool isCoarse = false);
 
 private:
     class Passes;
     std::shared_ptr<const Mesh> mesh_;
-    std::unique_ptr<Passes> passes_;
+    std::unique_ptr<Passes> passes_, coarse_; // the latter once they are needed
 };
 
 } // namespace nacre

@@ -29,7 +29,9 @@ void addTarget(Choices& choices, const fs::path& path)
     const bool isThere = std::any_of(choices.targets.begin(), choices.targets.end(),
                                      [&](const TargetChoice& t) { return t.path == path; });
     if (!path.empty() && !isThere) {
-        choices.targets.push_back({path.stem().string(), path});
+        const std::string name =
+            isGenerated(path) ? path.string().substr(path.string().find(':') + 1) : path.stem().string();
+        choices.targets.push_back({name, path});
     }
 }
 
@@ -59,6 +61,13 @@ Choices choicesOfSurface(const fs::path& folder)
     return choices;
 }
 
+void addTargets(Choices& choices, const std::vector<fs::path>& paths)
+{
+    for (const fs::path& path : paths) {
+        addTarget(choices, path);
+    }
+}
+
 Choices choicesOf(const ViewState& state)
 {
     Choices choices = state.surface.empty() ? Choices{} : choicesOfSurface(state.surface);
@@ -67,9 +76,7 @@ Choices choicesOf(const ViewState& state)
     for (const std::string& material : state.materials) {
         addMaterial(choices, material);
     }
-    for (const fs::path& target : state.targets) {
-        addTarget(choices, target);
-    }
+    addTargets(choices, state.targets);
     addEnvironment(choices, state.environment);
     for (const fs::path& environment : state.environments) {
         addEnvironment(choices, environment);

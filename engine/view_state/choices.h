@@ -36,6 +36,9 @@ Choices choicesOfSurface(const std::filesystem::path& surface);
 // The same with what the state shows and lists beside it.
 Choices choicesOf(const ViewState& state);
 
+// Further shapes, named by their files or what makes them.
+void addTargets(Choices& choices, const std::vector<std::filesystem::path>& paths);
+
 // Indices into the lists; none where what the state shows is not in them.
 std::optional<size_t> chosenMaterial(const ViewState& state, const Choices& choices);
 std::optional<size_t> chosenTarget(const ViewState& state, const Choices& choices);

@@ -121,6 +121,22 @@ bool steps(Action action)
            action == Action::nextPhotograph;
 }
 
+void stepHistory(Session& session, bool forward)
+{
+    if (!(forward ? session.history.redo(session.state) : session.history.undo(session.state))) {
+        session.message = forward ? "nothing of the lights was undone" : "the lights were not changed";
+        return;
+    }
+    session.playing = false;
+    session.light = session.light < session.state.lights.size() ? session.light : 0;
+    leavePhotograph(session);
+}
+
+void scaleText(Session& session, float factor)
+{
+    session.textScale = std::clamp(factor * session.textScale, kLeastTextScale, kMostTextScale);
+}
+
 void changeExposure(Session& session, float stops)
 {
     session.state.exposure = session.state.exposure.value_or(0.0f) + stops;
@@ -185,6 +201,14 @@ void act(Session& session, const Choices& choices, Action action, size_t number)
     case Action::screenshot:
         session.wantsScreenshot = true;
         return;
+    case Action::undo:
+        return stepHistory(session, false);
+    case Action::redo:
+        return stepHistory(session, true);
+    case Action::larger:
+        return scaleText(session, kTextStep);
+    case Action::smaller:
+        return scaleText(session, 1 / kTextStep);
     case Action::quit:
         session.wantsToQuit = !session.help;
         session.help = false;

@@ -2,6 +2,7 @@
 #include "engine/view_state/choices.h"
 #include "engine/view_state/framing.h"
 #include "engine/view_state/key_table.h"
+#include "engine/view_state/light_history.h"
 
 namespace nacre {
 
@@ -12,7 +13,9 @@ enum class Comparison { none, photograph, difference };
 struct Session {
     ViewState state;
     ViewState opened; // what R goes back to
+    LightHistory history;
     size_t light = 0; // of state.lights, that drags move
+    float textScale = 1;
     bool help = false;
     bool playing = false;
     Comparison comparison = Comparison::none;
@@ -25,8 +28,9 @@ struct Session {
     bool wantsToQuit = false;
 };
 
-inline constexpr float kTurnOfDrag = 0.25f;       // degrees a pixel; exact in sums, so that a way back is one
-inline constexpr float kExposureStep = 0.25f;     // stops
+inline constexpr float kTurnOfDrag = 0.25f;   // degrees a pixel; exact in sums, so that a way back is one
+inline constexpr float kExposureStep = 0.25f; // stops
+inline constexpr float kLeastTextScale = 0.5f, kMostTextScale = 4, kTextStep = 1.25f;
 inline constexpr float kSecondsAround = 8;        // of the light path
 inline constexpr float kDistanceStep = 1.189207f; // two to the fourth part of one
 inline constexpr float kFarthestChosen = 16;      // widths of the object

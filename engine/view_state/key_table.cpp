@@ -28,6 +28,11 @@ constexpr std::array kBindings = {KeyBinding{'H', 'H', Held::none, Action::help}
                                   KeyBinding{'X', 'X', Held::none, Action::difference},
                                   KeyBinding{'S', 'S', Held::control, Action::screenshot},
                                   KeyBinding{kKeyF12, kKeyF12, Held::any, Action::screenshot},
+                                  KeyBinding{'Z', 'Z', Held::control, Action::undo},
+                                  KeyBinding{'Z', 'Z', Held::both, Action::redo},
+                                  KeyBinding{'=', '=', Held::controlOrBoth, Action::larger}, // + on many keyboards
+                                  KeyBinding{'+', '+', Held::controlOrBoth, Action::larger},
+                                  KeyBinding{'-', '-', Held::control, Action::smaller},
                                   KeyBinding{kKeyEscape, kKeyEscape, Held::any, Action::quit}};
 
 constexpr std::array kHelp = {ActionHelp{Action::help, "H or ?", "this help"},
@@ -49,6 +54,10 @@ constexpr std::array kHelp = {ActionHelp{Action::help, "H or ?", "this help"},
                               ActionHelp{Action::photograph, "P", "photograph / render (with the capture)"},
                               ActionHelp{Action::difference, "X", "photograph minus render (with the capture)"},
                               ActionHelp{Action::screenshot, "Ctrl+S or F12", "screenshot and its state file"},
+                              ActionHelp{Action::undo, "Ctrl+Z", "lights as they were before"},
+                              ActionHelp{Action::redo, "Ctrl+Shift+Z", "and as they were after"},
+                              ActionHelp{Action::larger, "Ctrl++", "larger text"},
+                              ActionHelp{Action::smaller, "Ctrl+-", "smaller text"},
                               ActionHelp{Action::quit, "Esc", "close this help, or quit"}};
 
 bool fits(const KeyBinding& binding, const KeyPress& press)
@@ -65,6 +74,10 @@ bool fits(const KeyBinding& binding, const KeyPress& press)
         return press.shift && !press.control;
     case Held::control:
         return press.control && !press.shift;
+    case Held::both:
+        return press.control && press.shift;
+    case Held::controlOrBoth:
+        return press.control;
     }
     return false;
 }

@@ -24,6 +24,10 @@ enum class Action {
     photograph,
     difference,
     screenshot,
+    undo,
+    redo,
+    larger,
+    smaller,
     quit
 };
 
@@ -31,7 +35,7 @@ enum class Action {
 inline constexpr int kKeyEscape = 256;
 inline constexpr int kKeyF12 = 301;
 
-enum class Held { any, none, shift, control }; // modifiers that a binding asks for
+enum class Held { any, none, shift, control, both, controlOrBoth }; // modifiers that a binding asks for
 
 struct KeyBinding {
     int key;

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
 
 namespace nacre {
 
@@ -24,6 +25,18 @@ glm::vec2 ballDiscFromLight(const glm::vec3& direction)
 glm::vec3 draggedLight(const glm::vec3& direction, const glm::vec2& moved)
 {
     return lightFromBallDisc(ballDiscFromLight(direction) + moved);
+}
+
+LightAngles anglesOf(const glm::vec3& direction)
+{
+    return {glm::degrees(std::atan2(direction.y, direction.x)),
+            glm::degrees(std::atan2(direction.z, glm::length(glm::vec2(direction))))};
+}
+
+glm::vec3 directionOf(const LightAngles& angles)
+{
+    const float azimuth = glm::radians(angles.azimuth), elevation = glm::radians(angles.elevation);
+    return {std::cos(elevation) * std::cos(azimuth), std::cos(elevation) * std::sin(azimuth), std::sin(elevation)};
 }
 
 } // namespace nacre

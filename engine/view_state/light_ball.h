@@ -19,4 +19,13 @@ glm::vec2 ballDiscFromLight(const glm::vec3& direction);
 // A drag of (x right, y up, in radii of a ball) takes the light along.
 glm::vec3 draggedLight(const glm::vec3& direction, const glm::vec2& moved);
 
+// Of a light, in degrees: azimuth from x (right) to y (up) in the picture's plane, elevation above it, 90 where it
+// stands behind the camera.
+struct LightAngles {
+    float azimuth = 0;
+    float elevation = 90;
+};
+LightAngles anglesOf(const glm::vec3& direction);
+glm::vec3 directionOf(const LightAngles& angles);
+
 } // namespace nacre

@@ -120,6 +120,7 @@ void BackgroundLoads::open(const std::filesystem::path& folder)
 {
     sceneLoader_.start(fmt::format("reading {}", folder.filename().string()), [this, folder](Loader::Progress&) {
         Choices choices = choicesOfSurface(folder);
+        addTargets(choices, source_.shapes);
         ViewState state;
         state.surface = folder;
         resolveCaptured(state, choices.captured);
@@ -176,7 +177,8 @@ void BackgroundLoads::readNextMaterial(const Choices& choices)
         }
         const std::string named = specification.empty() ? choices.surface.string() : specification;
         materialLoader_.start("", [this, specification, named](Loader::Progress&) {
-            const auto material = std::make_shared<const Material>(loadMaterial(named, fitsFolderFrom(source_.fits)));
+            const auto material =
+                std::make_shared<const Material>(loadMaterial(named, fitsFolderFrom(source_.inputs.fits)));
             return [this, specification, material] { done_.material.emplace(specification, material); };
         });
     }

@@ -15,6 +15,7 @@ namespace {
 constexpr float kMarkerRadius = 6;  // units of layout
 constexpr float kMarkerReach = 12;  // of the cursor, to take a light
 constexpr float kMostStrength = 16; // of irradiance's slider
+constexpr const char* kDegrees = "%.0f\xC2\xB0";
 
 // Where the ball stands on the screen.
 struct BallPlace {
@@ -115,6 +116,17 @@ void showList(Session& session)
     }
 }
 
+// Where it stands. Towards azimuths nothing shows at an elevation of 90 degrees.
+void showAngles(LightSource& light)
+{
+    LightAngles angles = anglesOf(light.direction);
+    const bool isTurned = showValue("Azimuth", angles.azimuth, -180, 180, kDegrees);
+    if (showValue("Elevation", angles.elevation, -90, 90, kDegrees) || isTurned) {
+        light.direction = directionOf(angles);
+        light.captured = 0;
+    }
+}
+
 // Irradiance as a colour, whose largest channel is 1, and a strength.
 void showChosen(LightSource& light)
 {
@@ -123,14 +135,15 @@ void showChosen(LightSource& light)
     float wanted = strength;
     bool changed = ImGui::ColorEdit3("Colour", &colour.x, ImGuiColorEditFlags_Float | ImGuiColorEditFlags_NoInputs);
     ImGui::PushItemWidth(-0.38f * ImGui::GetWindowWidth());
-    changed |= ImGui::SliderFloat("Strength", &wanted, 0, kMostStrength, "%.2f", ImGuiSliderFlags_Logarithmic);
+    showAngles(light);
+    changed |= showValue("Strength", wanted, 0, kMostStrength, "%.2f", true);
     if (changed) {
         const float largest = std::max({colour.r, colour.g, colour.b, 1e-3f});
         light.irradiance = glm::max(wanted, 0.0f) * colour / largest;
         light.captured = 0;
     }
     float soft = light.softDegrees;
-    if (ImGui::SliderFloat("Softness", &soft, 0, 45, "%.0f\xC2\xB0")) {
+    if (showValue("Softness", soft, 0, 45, kDegrees)) {
         light.softDegrees = std::round(std::clamp(soft, 0.0f, 90.0f));
     }
     ImGui::PopItemWidth();
@@ -152,7 +165,7 @@ void showEnvironments(Session& session, const Choices& choices)
         ImGui::EndCombo();
     }
     if (!chosen.empty()) {
-        ImGui::SliderFloat("Turn", &session.state.environmentTurn, -180, 180, "%.0f\xC2\xB0");
+        showValue("Turn", session.state.environmentTurn, -180, 180, kDegrees);
     }
     ImGui::PopItemWidth();
 }

@@ -43,7 +43,7 @@ constexpr std::pair<const char*, const char*> kMouse[] = {
     {"drag", "move the picture"},
     {"wheel", "zoom"},
     {"Shift or middle drag", "turn a mesh"},
-    {"double click", "fit the picture"},
+    {"double click", "fit the picture; on a value, type it"},
     {"drop a file", "surface, material, normal map, environment"}};
 
 void row(const char* keys, const char* text)
@@ -85,6 +85,16 @@ void showWipeLine(const Session& session, const Stage& stage)
     }
 }
 
+bool showValue(const char* label, float& value, float least, float most, const char* format, bool isLogarithmic)
+{
+    const bool isChanged = ImGui::SliderFloat(label, &value, least, most, format,
+                                              isLogarithmic ? ImGuiSliderFlags_Logarithmic : ImGuiSliderFlags_None);
+    if (ImGui::IsItemHovered() && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) {
+        ImGui::SetKeyboardFocusHere(-1);
+    }
+    return isChanged;
+}
+
 bool showStatus(const Session& session, const Loader* busy, const Stage& stage, const std::string& remark)
 {
     const Area& area = stage.area;
@@ -120,7 +130,7 @@ void showDisplayPanel(Session& session)
     ViewState& state = session.state;
     float stops = state.exposure.value_or(0);
     ImGui::PushItemWidth(-0.38f * ImGui::GetWindowWidth());
-    if (ImGui::SliderFloat("Exposure", &stops, -8, 8, "%+.2f stops")) {
+    if (showValue("Exposure", stops, -8, 8, "%+.2f stops")) {
         state.exposure = stops;
     }
     ImGui::PopItemWidth();

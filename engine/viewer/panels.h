@@ -40,6 +40,10 @@ void showDisplayPanel(Session& session);
 void showPhotographPanel(Session& session, const PanelInputs& inputs);
 void showInspectorPanel(const Session& session, const PanelInputs& inputs);
 
+// A slider whose value a double click types.
+bool showValue(const char* label, float& value, float least, float most, const char* format,
+               bool isLogarithmic = false);
+
 // Over everything.
 void showHelp(const glm::vec2& windowSize, float scale);
 

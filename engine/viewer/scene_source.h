@@ -4,6 +4,7 @@
 
 #include "engine/gpu/context.h"
 #include "engine/lights/environment.h"
+#include "engine/loading/scene_loading.h"
 #include "engine/scene/ball_size.h"
 #include "engine/surface/surface.h"
 #include "engine/target/mesh_raster.h"
@@ -15,8 +16,9 @@ namespace nacre {
 // From what a state is read beside the files that it names; by the background as well.
 struct SceneSource {
     const Context& context;
-    std::filesystem::path fits;               // of fitted models; empty: none given
-    std::shared_ptr<Photographs> photographs; // null: none, so no verdicts
+    SceneInputs inputs;
+    std::vector<std::filesystem::path> shapes; // generated ones, that are offered beside the surface's own
+    std::shared_ptr<Photographs> photographs;  // null: none, so no verdicts
 };
 
 // A surface to draw, and how finely its materials' balls are sampled.

@@ -27,7 +27,12 @@ Framing SessionInput::framing(const Stage& stage) const
 std::optional<std::filesystem::path> SessionInput::take(const WindowEvents& events, const Window& window,
                                                         const Stage& stage)
 {
+    if (events.pressed[0] || events.pressed[1] || events.pressed[2]) {
+        session.message.clear();
+    }
     takeMouse(events, window, stage);
+    const bool isHeld = window.isHeld(0) || window.isHeld(1) || window.isHeld(2);
+    session.history.follow(session.state, isHeld || session.playing);
     if (!ImGui::GetIO().WantTextInput) {
         for (const KeyPress& press : events.keys) {
             session.message.clear();
@@ -41,11 +46,11 @@ std::optional<std::filesystem::path> SessionInput::take(const WindowEvents& even
         if (kind == Dropped::surface) {
             surface = file;
         } else if (kind == Dropped::unknown || kind == Dropped::state) {
-            session.message =
-                fmt::format("{}: is no surface, material, picture of normals or environment", file.string());
+            session.message = fmt::format("{}: is {}", file.string(), nameOf(kind));
         } else {
             Undo undo{choices, session.state, {}};
             choose(kind, file);
+            session.message = fmt::format("{}: taken for {}", file.filename().string(), nameOf(kind));
             undo.after = session.state;
             undo_ = std::move(undo);
         }

@@ -26,6 +26,7 @@ public:
     // Answers the surface that was dropped, if one was.
     std::optional<std::filesystem::path> take(const WindowEvents& events, const Window& window, const Stage& stage);
 
+    bool isTurning() const { return drag_ == Drag::turn; }
     // What was asked for is shown: a drop cannot be undone any more.
     void settle() { undo_.reset(); }
     // What is shown stays, and so does what the state says of it; what was dropped since leaves the lists again.

@@ -79,8 +79,8 @@ void chooseStyle(float scale)
 
 } // namespace
 
-UiPass::UiPass(const Context& context, const Window& window, const Swapchain& swapchain)
-    : context_(context), scale_(std::max(window.contentScale(), 1.0f)),
+UiPass::UiPass(const Context& context, const Window& window, const Swapchain& swapchain, float scale)
+    : context_(context), scale_(scale),
       renderPass_(context.device(), makeRenderPass(context.device(), swapchain.format())),
       descriptors_(context.device(), makeDescriptorPool(context.device()))
 {

@@ -9,7 +9,8 @@ namespace nacre {
 // pictures among the panels are copied below it (see placed_picture.h).
 class UiPass {
 public:
-    UiPass(const Context& context, const Window& window, const Swapchain& swapchain);
+    // `scale` of sizes in pixels: 1 at 96 dots an inch.
+    UiPass(const Context& context, const Window& window, const Swapchain& swapchain, float scale);
     ~UiPass();
     UiPass(const UiPass&) = delete;
     UiPass& operator=(const UiPass&) = delete;
@@ -21,7 +22,7 @@ public:
     // The image must be in VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL; it ends in the one for presenting.
     void record(VkCommandBuffer commands, const Swapchain& swapchain, size_t image);
 
-    float scale() const { return scale_; } // of sizes in pixels: 1 at 96 dots an inch
+    float scale() const { return scale_; }
 
 private:
     void makeFramebuffers(const Swapchain& swapchain);

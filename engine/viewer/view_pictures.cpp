@@ -62,12 +62,12 @@ std::string describeComparison(const Image& photograph, const Frame& render, con
                        radiancePsnr(photograph, render, mask, peak), ratio);
 }
 
-void drawOnMesh(const Context& context, DrawnSurface& drawn, const ViewState& state)
+void drawOnMesh(const Context& context, DrawnSurface& drawn, const ViewState& state, bool isCoarse)
 {
     if (!drawn.raster) {
         drawn.raster = meshRasterFor(context, drawn.mesh, state);
     }
-    drawMesh(*drawn.raster, state, drawn.surface);
+    drawMesh(*drawn.raster, state, drawn.surface, isCoarse);
 }
 
 } // namespace
@@ -78,7 +78,7 @@ void ViewPictures::setScene(const LoadedScene& scene, const ViewState& state)
     for (DrawnSurface* drawn : {scene.main.get(), scene.other.get()}) {
         const bool isDrawn = drawn == scene_.main.get() || drawn == scene_.other.get();
         if (drawn && drawn->mesh && !isDrawn) {
-            drawOnMesh(context_, *drawn, state);
+            drawOnMesh(context_, *drawn, state, isCoarse_);
         }
     }
     if (scene.main != scene_.main) {
@@ -96,15 +96,17 @@ void ViewPictures::setScene(const LoadedScene& scene, const ViewState& state)
 
 void ViewPictures::turnTo(const ViewState& state)
 {
-    if (state.turn == turn_) {
+    const bool isSame = state.turn == turn_;
+    if (isSame && (isTurning_ || !isCoarse_)) {
         return;
     }
     turn_ = state.turn;
+    isCoarse_ = isTurning_;
     const std::pair<DrawnSurface*, Renderer*> drawn[] = {{scene_.main.get(), &main_},
                                                          {scene_.other.get(), other_.get()}};
     for (const auto& [surface, renderer] : drawn) {
         if (surface && surface->mesh) {
-            drawOnMesh(context_, *surface, state);
+            drawOnMesh(context_, *surface, state, isCoarse_);
             renderer->setPixels(surface->surface);
         }
     }

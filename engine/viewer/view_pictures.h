@@ -18,6 +18,9 @@ public:
     // Lights, exposure (automatic where the state has none, which is then written into it), what is shown.
     void apply(ViewState& state, const glm::vec3& view, std::span<const CapturedLight> captured);
 
+    // Meshes are drawn coarsely while they are turned.
+    void setTurning(bool isTurning) { isTurning_ = isTurning; }
+
     // Read ones, which verdicts are on; null: none are at hand, and the render stands in their place.
     void setPhotographs(const Photographs* photographs) { photographs_ = photographs; }
 
@@ -62,6 +65,7 @@ private:
     std::unique_ptr<Renderer> other_;
     LoadedScene scene_;
     Turn turn_; // of its meshes, as they are drawn
+    bool isTurning_ = false, isCoarse_ = false;
     const Photographs* photographs_ = nullptr;
     std::optional<Verdicts> verdicts_; // in place of the renders
     std::vector<Light> lights_;

@@ -18,6 +18,7 @@
 #include "engine/scene/scene_residual.h"
 #include "engine/surface/surface.h"
 #include "engine/viewer/background_loads.h"
+#include "engine/viewer/light_ball_picture.h"
 #include "engine/viewer/panels.h"
 #include "engine/viewer/placed_picture.h"
 #include "engine/viewer/screenshots.h"
@@ -28,29 +29,6 @@
 namespace nacre {
 namespace {
 
-// The material on a ball, lit from the upper left, exposed by itself; codes. `size` in pixels.
-Image materialThumbnail(const Context& context, const Material& material, int size)
-{
-    Renderer renderer(context);
-    renderer.setPath(RenderPath::direct); // one small picture is not worth measuring the ball's size
-    renderer.setSurface(transferredSurface(sphereNormalMap(size), material));
-    const std::array lights = {Light{.direction = glm::normalize(glm::vec3(-0.4f, 0.5f, 0.8f))}};
-    renderer.setLights(lights);
-    renderer.setDisplay({.exposureStops = renderer.automaticExposure()});
-    return renderer.picture();
-}
-
-// The surface's most frequent material.
-size_t mostFrequentMaterial(const Surface& surface)
-{
-    std::array<size_t, 256> counts{};
-    for (const uint8_t label : surface.labels) {
-        ++counts[label];
-    }
-    const auto end = counts.begin() + static_cast<std::ptrdiff_t>(surface.materials.size());
-    return static_cast<size_t>(std::max_element(counts.begin(), end) - counts.begin());
-}
-
 constexpr double kMostFramesPerSecond = 60; // FIFO does not hold every driver back
 constexpr float kPanelWidth = 300;          // units of layout
 constexpr float kInspectorWidth = 250;
@@ -60,8 +38,8 @@ constexpr float kThumbnailSize = 48;
 constexpr double kProgressSeconds = 0.1; // between looks at what is loading
 constexpr double kTitleSeconds = 0.25;   // between changes of the title while frames follow each other
 constexpr glm::vec3 kBackground{0.11f, 0.11f, 0.12f};
+constexpr const char* kHint = "Drag on the ball of lights, or with the right button anywhere. H: help";
 constexpr int kFramesToSettle = 3; // ImGui takes a few
-constexpr size_t kFewLights = 16;  // of which the light ball's few pixels are drawn sooner than another ball is made
 
 // Frames: what has happened since the last, what was read, and then pictures and panels, as often as anything changes.
 class ViewerWindow {
@@ -79,12 +57,12 @@ private:
     void takeWhatWasRead();
     void takeScene(const ViewState& state, const LoadedScene& scene);
     void keepShown();
+    void followScale();
     void takeScreenshot();
     void applyState();
     void drawFrame();
     void drawPictures();
     int ballSize() const; // pixels
-    const Texture& drawnBall();
     std::optional<SeenPart> seenPart() const;
     void placePicture(const Stage& stage);
     void describePanels(const Stage& stage);
@@ -97,11 +75,10 @@ private:
     ViewerOptions options_;
     Window window_;
     Swapchain swapchain_;
-    UiPass ui_;
+    std::optional<UiPass> ui_; // in scaleOfUi
     ViewPictures pictures_;
-    Renderer directBall_;           // of ballMaterial_, where the picture has no balls to draw it from
+    LightBallPicture lightBall_;
     const Texture* ball_ = nullptr; // drawn in this frame
-    size_t ballMaterial_ = 0;       // the surface's most frequent one
     PhotographComparison comparison_;
     std::map<std::string, Texture> thumbnails_;
     std::optional<SeenPart> seen_; // of the renders, as they were drawn
@@ -124,10 +101,13 @@ private:
 ViewerWindow::ViewerWindow(const Context& context, ViewState state, Choices choices, const SceneSource& source,
                            const ViewerOptions& options)
     : context_(context), source_(source), options_(options), window_("nacre", options.width, options.height),
-      swapchain_(context, window_), ui_(context, window_, swapchain_), pictures_(context), directBall_(context),
-      comparison_(context), input_(std::move(state), std::move(choices)), session_(input_.session),
+      swapchain_(context, window_), pictures_(context), lightBall_(context), comparison_(context),
+      input_(std::move(state), std::move(choices)), session_(input_.session),
       loads_(source, session_.state, Window::wake)
 {
+    session_.textScale = std::clamp(options.textScale, kLeastTextScale, kMostTextScale);
+    session_.message = kHint;
+    followScale();
     view_ = viewDirectionOf(session_.state);
     takeScene(session_.state, loadScene(source_, session_.state, input_.choices, {}, {}));
     requireResidual(pictures_.scene().main->surface, view_, session_.state.residual);
@@ -145,6 +125,7 @@ void ViewerWindow::run()
         if (session_.wantsScreenshot) {
             takeScreenshot();
         }
+        followScale();
         const glm::ivec2 size = window_.framebufferSize();
         if (!swapchain_.isEmpty() && size.x > 0 && size.y > 0 && framesLeft_ > 0) {
             drawFrame();
@@ -200,6 +181,7 @@ void ViewerWindow::takeWhatWasRead()
         pictures_.setPhotographs(nullptr);
         takeScene(done.scene->state, done.scene->scene);
         session_ = {.state = done.scene->state,
+                    .textScale = session_.textScale,
                     .canTurn = session_.canTurn,
                     .hasResidual = session_.hasResidual,
                     .wantsScreenshot = session_.wantsScreenshot};
@@ -216,7 +198,7 @@ void ViewerWindow::takeWhatWasRead()
     }
     if (done.material) {
         const auto& [specification, material] = *done.material;
-        const auto size = static_cast<int>(kThumbnailSize * ui_.scale());
+        const auto size = static_cast<int>(kThumbnailSize * ui_->scale());
         thumbnails_.insert_or_assign(specification,
                                      uploadPicture(context_, materialThumbnail(context_, *material, size)));
     }
@@ -230,15 +212,23 @@ void ViewerWindow::takeScene(const ViewState& state, const LoadedScene& scene)
     const bool isOtherMaterial = scene.main != pictures_.scene().main;
     pictures_.setScene(scene, state);
     if (isOtherMaterial && !scene.main->surface.materials.empty()) {
-        ballMaterial_ = mostFrequentMaterial(scene.main->surface);
-        directBall_.setSurface(
-            transferredSurface(sphereNormalMap(ballSize()), scene.main->surface.materials[ballMaterial_]));
+        lightBall_.setSurface(scene.main->surface);
         input_.pixel.reset();
     }
     input_.settle();
     session_.hasPhotographs = loads_.photographs() != nullptr && state.onto.empty() && !state.surface.empty();
     session_.canTurn = scene.main->mesh != nullptr;
     session_.hasResidual = hasResidualFrom(scene.main->surface, view_);
+}
+
+// Of the text and all around it: the screen's, which may change, times the user's.
+void ViewerWindow::followScale()
+{
+    const float scale = session_.textScale * std::max(window_.contentScale(), 1.0f);
+    if (!ui_ || ui_->scale() != scale) {
+        ui_.reset(); // ImGui is one at a time
+        ui_.emplace(context_, window_, swapchain_, scale);
+    }
 }
 
 // Where what was asked for cannot or shall not be read.
@@ -256,6 +246,7 @@ void ViewerWindow::takeScreenshot()
         return;
     }
     session_.wantsScreenshot = false;
+    pictures_.setTurning(false);
     try {
         applyState();
         const std::filesystem::path file = nextScreenshot(options_.screenshots);
@@ -269,16 +260,16 @@ void ViewerWindow::takeScreenshot()
 
 float ViewerWindow::panelWidth() const
 {
-    return std::min(kPanelWidth * ui_.scale(), 0.4f * static_cast<float>(swapchain_.extent().width));
+    return std::min(kPanelWidth * ui_->scale(), 0.4f * static_cast<float>(swapchain_.extent().width));
 }
 
 Stage ViewerWindow::stage() const
 {
     const glm::vec2 window(swapchain_.extent().width, swapchain_.extent().height);
-    const float inspector = std::min(kInspectorWidth * ui_.scale(), 0.3f * window.x);
-    const glm::vec2 taken(panelWidth() + inspector, kStatusHeight * ui_.scale());
+    const float inspector = std::min(kInspectorWidth * ui_->scale(), 0.3f * window.x);
+    const glm::vec2 taken(panelWidth() + inspector, kStatusHeight * ui_->scale());
     return {.window = window,
-            .scale = ui_.scale(),
+            .scale = ui_->scale(),
             .area = {{inspector, 0}, glm::max(window - taken, glm::vec2(1))},
             .picture = pictures_.size(),
             .wipeColumn = pictures_.other() != nullptr ? std::optional(pictures_.wipeColumn()) : std::nullopt};
@@ -292,25 +283,7 @@ void ViewerWindow::applyState()
 
 int ViewerWindow::ballSize() const
 {
-    return static_cast<int>(kBallSize * ui_.scale());
-}
-
-// The ball of lights: where the picture is not drawn from balls, under distant lights, since markers lie where the ball
-// is brightest.
-const Texture& ViewerWindow::drawnBall()
-{
-    if (const Texture* ball = pictures_.renderer().drawMaterialBall(ballMaterial_, ballSize())) {
-        return *ball;
-    }
-    directBall_.setPath(pictures_.lights().size() <= kFewLights ? RenderPath::direct : RenderPath::automatic);
-    std::vector<Light> distant(pictures_.lights().begin(), pictures_.lights().end());
-    for (Light& light : distant) {
-        light.distance = Light().distance;
-    }
-    directBall_.setLights(distant);
-    directBall_.setDisplay(pictures_.display());
-    directBall_.drawPicture();
-    return directBall_.drawnPicture();
+    return static_cast<int>(kBallSize * ui_->scale());
 }
 
 // None where pictures are shown as they are: photographs and what is judged or compared pixel by pixel.
@@ -326,12 +299,13 @@ std::optional<SeenPart> ViewerWindow::seenPart() const
 
 void ViewerWindow::drawPictures()
 {
+    pictures_.setTurning(input_.isTurning());
     applyState();
     seen_ = seenPart();
     pictures_.setZoom(seen_ ? std::optional(seen_->zoom) : std::nullopt);
     pictures_.draw();
     if (!pictures_.scene().main->surface.materials.empty()) {
-        ball_ = &drawnBall();
+        ball_ = &lightBall_.draw(pictures_, ballSize());
         comparison_.update(session_, loads_.photographs(), pictures_);
     }
 }
@@ -398,12 +372,12 @@ void ViewerWindow::drawFrame()
     placed_.clear();
     const Stage stage = this->stage();
     placePicture(stage);
-    ui_.begin();
+    ui_->begin();
     describePanels(stage);
-    ui_.end();
+    ui_->end();
     const bool wasShown = swapchain_.show([&](VkCommandBuffer commands, size_t image) {
         recordPictures(commands, swapchain_.image(image), placed_, kBackground);
-        ui_.record(commands, swapchain_, image);
+        ui_->record(commands, swapchain_, image);
     });
     if (!wasShown) {
         swapchain_.rebuild();

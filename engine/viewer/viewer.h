@@ -10,6 +10,7 @@ struct ViewerOptions {
     int width = 1280; // of the window, in the desktop's units
     int height = 720;
     std::filesystem::path screenshots = "."; // folder
+    float textScale = 1;
 };
 
 // Opens a window on the state and returns when it is closed. The context must be one that presents (see

@@ -167,7 +167,7 @@ TEST_F(RenderTest, BadOptionsAreUsageErrors)
     expectRefusal(render("new.exr", {"--exposure", "1"}), 2, ".png only");
     expectRefusal(render("new.tga", {}), 2, ".png (8-bit sRGB) or .exr");
     expectRefusal(render("new.png", {"--onto", path("s.nacre"), "--normal-y", "up"}), 2, "gl (green points up)");
-    expectRefusal(render("new.png", {"--onto", "make:head"}), 2, "nacre target make:head");
+    expectRefusal(render("new.png", {"--onto", "make:moon"}), 2, "sphere");
     expectRefusal(render("new.png", {"--onto", path("mesh.obj")}), 3, "a mesh file");
     expectRefusal(render("new.png", {"--turn", "30,0"}), 2, "cannot be turned");
 }

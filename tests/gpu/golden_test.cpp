@@ -80,7 +80,7 @@ public:
     MutableState(const fs::path& state, const Context& context) : context_(context)
     {
         description_ = sceneFromFile(state);
-        scene = loadScene(description_, state.parent_path(), context, false);
+        scene = loadScene(description_, {.fits = state.parent_path()}, context, false);
     }
     Display display() const
     {

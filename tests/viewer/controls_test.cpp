@@ -118,7 +118,7 @@ KeyPress pressOf(const std::string& name)
         return {kKeyF12};
     }
     KeyPress press{.key = name.back()};
-    press.shift = name.starts_with("Shift+");
+    press.shift = name.find("Shift+") != std::string::npos;
     press.control = name.starts_with("Ctrl+");
     return press;
 }

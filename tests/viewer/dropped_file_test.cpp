@@ -43,6 +43,13 @@ TEST(DroppedFile, IsTakenForWhatItHolds)
     EXPECT_EQ(kindOf("gold.binary"), Dropped::material);
     EXPECT_EQ(kindOf("sky.hdr"), Dropped::environment);
     EXPECT_EQ(kindOf("state.json"), Dropped::state);
+    saveImage(path("sky.exr"), Image(8, 4, 3, 0.3f), PixelType::half);
+    NormalMap wide(8, 4);
+    wide.normals.assign(32, glm::vec3(0, 0.6f, 0.8f));
+    wide.confidence.assign(32, 1.0f);
+    saveNormalMap(path("wide.exr"), wide);
+    EXPECT_EQ(kindOf(path("sky.exr")), Dropped::environment);
+    EXPECT_EQ(kindOf(path("wide.exr")), Dropped::target);
 }
 
 TEST(DroppedFile, IsUnknownWhereItHoldsNothing)

@@ -40,6 +40,12 @@ drag 3 600 340 560 300 500 420
 screenshot
 check "a right drag moves it anywhere" differs "$dragged" "$shot"
 check_later "and its state gives the picture" reproduces "$shot"
+press ctrl+z; screenshot
+check "Ctrl+Z takes a whole drag back" cmp "$dragged" "$shot"
+press ctrl+z; screenshot
+check "and the one before it" cmp "$first" "$shot"
+press ctrl+shift+z; screenshot
+check "Ctrl+Shift+Z does it again" cmp "$dragged" "$shot"
 press r; screenshot
 check "R goes back" cmp "$first" "$shot"
 
@@ -82,6 +88,10 @@ press h
 check "H shows the help" changes before help 10
 press question
 check "? closes it" returns_to before after 10
+press ctrl+equal
+check "Ctrl++ makes text larger" changes before larger 10
+press ctrl+minus
+check "Ctrl+- undoes it" returns_to before after 10
 press space; sleep 0.3; press space; screenshot
 check "Space plays the light path" lacks "$shot" captured:1
 press r
@@ -140,6 +150,15 @@ for fitted in 365x347:2 1460x1388:0.5; do
     check "${fitted%%:*} is seen as render --scale ${fitted##*:} makes it" screen_shows "$work/scaled.png" "$picture"
     check "no message of Vulkan's validation there" quits_quietly
 done
+
+shots=$work/shots4; rm -rf "$shots"; mkdir -p "$shots"
+open_window --size 128x128
+screenshot
+check "without arguments a material is on a head" holds "$shot" '"onto": "make:head"'
+check_later "and its state gives the picture" reproduces "$shot"
+press t; screenshot
+check "T steps through the generated shapes" holds "$shot" '"onto": "make:sphere"'
+check "no message of Vulkan's validation with generated shapes" quits_quietly
 
 unset DISPLAY
 code=0; "$nacre" view "$work/bumpy.nacre" 2>"$work/err" || code=$?
