@@ -25,14 +25,13 @@ vec3 meanLight(ivec2 pixel)
     float right = borderOfReduced(constants.origin.x, constants.scale, pixel.x + 1, size.x);
     float top = borderOfReduced(constants.origin.y, constants.scale, pixel.y, size.y);
     float bottom = borderOfReduced(constants.origin.y, constants.scale, pixel.y + 1, size.y);
-    ivec2 first = ivec2(int(left), int(top));
     vec3 light = vec3(0.0);
-    [[unroll]] for (int row = 0; row < kReach; ++row) {
-        float down = shareOfReduced(top, bottom, first.y + row);
-        [[unroll]] for (int column = 0; column < kReach; ++column) {
-            float share = down * shareOfReduced(left, right, first.x + column);
-            ivec2 at = min(first + ivec2(column, row), size - 1); // beyond, shares are 0
-            light += share * lightOfCode(texelFetch(picture, at, 0).rgb);
+    [[unroll]] for (int i = 0; i < kReach; ++i) {
+        vec2 row = pixelOfReduced(top, bottom, i, kReach);
+        [[unroll]] for (int j = 0; j < kReach; ++j) {
+            vec2 column = pixelOfReduced(left, right, j, kReach);
+            ivec2 at = min(ivec2(int(column.x), int(row.x)), size - 1); // beyond, shares are 0
+            light += row.y * column.y * lightOfCode(texelFetch(picture, at, 0).rgb);
         }
     }
     return light;

@@ -157,19 +157,15 @@ float rounded(float code)
     return std::round(255 * code) / 255;
 }
 
-// The pixels of a row or column that one of it reduced meets, and their shares.
-struct Shares {
-    int first = 0;
-    std::vector<float> of;
-};
-
-Shares sharesOf(float origin, float scale, int pixel, int count)
+// The pixels of a row or column of which one of it reduced is the mean, and their shares.
+std::vector<std::pair<int, float>> sharesOf(float origin, float scale, int pixel, int count)
 {
     const float low = borderOfReduced(origin, scale, pixel, count);
     const float high = borderOfReduced(origin, scale, pixel + 1, count);
-    Shares shares{.first = static_cast<int>(low), .of = {}};
-    for (int k = shares.first; k < std::min(shares.first + reachOfReduced(scale), count); ++k) {
-        shares.of.push_back(shareOfReduced(low, high, k));
+    std::vector<std::pair<int, float>> shares;
+    for (int k = 0; k < reachOfReduced(scale); ++k) {
+        const glm::vec2 at = pixelOfReduced(low, high, k, reachOfReduced(scale));
+        shares.emplace_back(std::min(static_cast<int>(at.x), count - 1), at.y);
     }
     return shares;
 }
@@ -179,14 +175,12 @@ template <class Value> Image reduced(const Image& picture, const Zoom& zoom, con
 {
     Image mean(zoom.size.x, zoom.size.y, 3);
     for (int y = 0; y < mean.height; ++y) {
-        const Shares rows = sharesOf(zoom.origin.y, zoom.scale, y, picture.height);
+        const auto rows = sharesOf(zoom.origin.y, zoom.scale, y, picture.height);
         for (int x = 0; x < mean.width; ++x) {
-            const Shares columns = sharesOf(zoom.origin.x, zoom.scale, x, picture.width);
             glm::vec3 sum(0);
-            for (size_t i = 0; i < rows.of.size(); ++i) {
-                for (size_t j = 0; j < columns.of.size(); ++j) {
-                    sum += rows.of[i] * columns.of[j] *
-                           value(picture.rgb(columns.first + static_cast<int>(j), rows.first + static_cast<int>(i)));
+            for (const auto& [column, across] : sharesOf(zoom.origin.x, zoom.scale, x, picture.width)) {
+                for (const auto& [row, down] : rows) {
+                    sum += across * down * value(picture.rgb(column, row));
                 }
             }
             mean.setRgb(x, y, sum);

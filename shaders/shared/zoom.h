@@ -30,16 +30,22 @@ NACRE_FN float borderOfReduced(float origin, float scale, int pixel, int count)
     return clamp(origin + float(pixel) / scale, 0.0f, float(count));
 }
 
-// Share of what lies between two borders that one of the picture's pixels has.
-NACRE_FN float shareOfReduced(float low, float high, int pixel)
-{
-    return max(min(high, float(pixel + 1)) - max(low, float(pixel)), 0.0f) / (high - low);
-}
+// Pixels along one axis of which a reduced one is the mean: all that it meets, or as many that are spread evenly.
+const int kMostReach = 8;
 
-// Pixels that a reduced one meets at most.
 NACRE_FN int reachOfReduced(float scale)
 {
-    return int(1.0f / scale) + 2;
+    return min(int(min(1.0f / scale, float(kMostReach))) + 2, kMostReach);
+}
+
+// The k-th of them between two borders: x the pixel, y its share.
+NACRE_FN vec2 pixelOfReduced(float low, float high, int k, int reach)
+{
+    if (high - low > float(reach - 1)) {
+        return vec2(floor(low + (float(k) + 0.5f) * (high - low) / float(reach)), 1.0f / float(reach));
+    }
+    float pixel = floor(low) + float(k);
+    return vec2(pixel, max(min(high, pixel + 1.0f) - max(low, pixel), 0.0f) / (high - low));
 }
 
 NACRE_SHARED_END

@@ -100,7 +100,7 @@ TEST(Zoom, APartIsACutOfTheWhole)
 
 TEST(Zoom, EvenAreasStayAndLightIsKept)
 {
-    for (const float scale : {0.5f, 0.37f, 0.9f}) {
+    for (const float scale : {0.5f, 0.37f, 0.9f, 0.05f}) {
         const Zoom zoom = wholeZoom(40, 30, scale);
         const Image even(40, 30, 3, 77.0f / 255);
         for (const float code : reducedCodes(even, zoom).values) {

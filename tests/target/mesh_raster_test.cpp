@@ -189,6 +189,17 @@ TEST_F(MeshRasterTest, ATurnIsAViewFromElsewhere)
     }
 }
 
+TEST_F(MeshRasterTest, CoarselyItIsNearlyTheSameAndFinelyTheSameAfterwards)
+{
+    const auto mesh = std::make_shared<const Mesh>(loadMesh(write("sphere.obj", sphereObj(200, true))));
+    const MeshView seen = fittedView(*mesh, {.width = kRasterSize, .height = kRasterSize});
+    MeshRaster raster(*context, mesh, kRasterSize, kRasterSize);
+    const Surface before = raster.draw(seen), coarse = raster.draw(seen, true), after = raster.draw(seen);
+    EXPECT_EQ(before.normals.normals, after.normals.normals);
+    EXPECT_EQ(before.height.values, after.height.values);
+    EXPECT_LT(sphereErrors(coarse).first, 1);
+}
+
 TEST_F(MeshRasterTest, PitchBringsTheTopNearerAndRollIsCounterClockwise)
 {
     const auto turned = [](const Turn& turn, const glm::dvec3& v) { return matrixOf(turn) * v; };

@@ -160,6 +160,18 @@ press t; screenshot
 check "T steps through the generated shapes" holds "$shot" '"onto": "make:sphere"'
 check "no message of Vulkan's validation with generated shapes" quits_quietly
 
+shots=$work/shots5; rm -rf "$shots"; mkdir -p "$shots"
+printf 'v %s\n' '0 0 1' '1 0 -1' '-1 1 -1' '-1 -1 -1' >"$work/pyramid.obj"
+printf 'f %s\n' '1 2 3' '1 3 4' '1 4 2' '2 4 3' >>"$work/pyramid.obj"
+open_window --onto "$work/pyramid.obj" --size 128x128
+screenshot; still=$shot
+drag 2 600 300 640 320 680 310; screenshot
+check "a middle drag turns a mesh" holds "$shot" '"turn"'
+check_later "and its state gives the picture" reproduces "$shot"
+drag 2 680 310 640 320 600 300; screenshot
+check "the way back gives the same bytes" cmp "$still" "$shot"
+check "no message of Vulkan's validation with a mesh" quits_quietly
+
 unset DISPLAY
 code=0; "$nacre" view "$work/bumpy.nacre" 2>"$work/err" || code=$?
 check "without a display it says so" test "$code" = 3
