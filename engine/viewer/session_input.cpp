@@ -60,23 +60,18 @@ std::optional<std::filesystem::path> SessionInput::take(const WindowEvents& even
 
 void SessionInput::takeMouse(const WindowEvents& events, const Window& window, const Stage& stage)
 {
-    const glm::vec2 cursor = window.cursor(), moved = cursor - cursor_;
-    cursor_ = cursor;
+    const glm::vec2 cursor = window.cursor();
     const bool isOver = stage.area.holds(cursor) && !session.help;
+    if (drag_ == Drag::none) {
+        begin(events, window, stage);
+    }
+    const glm::vec2 moved = cursor - cursor_;
+    cursor_ = cursor;
     if (drag_ != Drag::none) {
         drag(moved, stage);
         if (!window.isHeld(dragButton_)) {
             drag_ = Drag::none;
         }
-    } else if (isOver && events.pressed[1]) {
-        begin(Drag::light, 1);
-        session.playing = false;
-    } else if (isOver && (events.pressed[2] || (events.pressed[0] && window.isShiftHeld()))) {
-        begin(Drag::turn, events.pressed[2] ? 2 : 0);
-    } else if (isOver && events.pressed[0]) {
-        const float line = screenFromPicture({stage.wipeColumn.value_or(0), 0}, framing(stage), stage.area).x;
-        const bool isAtLine = stage.wipeColumn && std::abs(cursor.x - line) < kWipeReach * stage.scale;
-        begin(isAtLine ? Drag::wipe : Drag::pan, 0);
     }
     if (isOver && events.wheel != 0) {
         session.state.framing = zoomed(session.state.framing, events.wheel, cursor, stage.picture, stage.area);
@@ -84,15 +79,26 @@ void SessionInput::takeMouse(const WindowEvents& events, const Window& window, c
     if (isOver && events.doubleClicked) {
         act(session, choices, Action::fit);
     }
-    if (isOver && drag_ == Drag::none) {
-        inspect(stage);
-    }
 }
 
-void SessionInput::begin(Drag drag, int button)
+void SessionInput::begin(const WindowEvents& events, const Window& window, const Stage& stage)
 {
-    drag_ = drag;
-    dragButton_ = button;
+    const bool isPressed = events.pressed[0] || events.pressed[1] || events.pressed[2];
+    if (!isPressed || !stage.area.holds(events.pressedAt) || session.help) {
+        return;
+    }
+    cursor_ = events.pressedAt;
+    dragButton_ = events.pressed[1] ? 1 : events.pressed[2] ? 2 : 0;
+    if (dragButton_ == 1) {
+        drag_ = Drag::light;
+        session.playing = false;
+    } else if (dragButton_ == 2 || window.isShiftHeld()) {
+        drag_ = Drag::turn;
+    } else {
+        const float line = screenFromPicture({stage.wipeColumn.value_or(0), 0}, framing(stage), stage.area).x;
+        const bool isAtLine = stage.wipeColumn && std::abs(cursor_.x - line) < kWipeReach * stage.scale;
+        drag_ = isAtLine ? Drag::wipe : Drag::pan;
+    }
 }
 
 void SessionInput::drag(const glm::vec2& moved, const Stage& stage)
@@ -114,6 +120,9 @@ void SessionInput::drag(const glm::vec2& moved, const Stage& stage)
 
 void SessionInput::inspect(const Stage& stage)
 {
+    if (!stage.area.holds(cursor_) || session.help || drag_ != Drag::none) {
+        return;
+    }
     const glm::ivec2 at(glm::floor(pictureFromScreen(cursor_, framing(stage), stage.area)));
     if (at.x >= 0 && at.y >= 0 && at.x < stage.picture.x && at.y < stage.picture.y) {
         pixel = at;

@@ -27,6 +27,8 @@ public:
     std::optional<std::filesystem::path> take(const WindowEvents& events, const Window& window, const Stage& stage);
 
     bool isTurning() const { return drag_ == Drag::turn; }
+    // What the cursor is on, as the picture lies now.
+    void inspect(const Stage& stage);
     // What was asked for is shown: a drop cannot be undone any more.
     void settle() { undo_.reset(); }
     // What is shown stays, and so does what the state says of it; what was dropped since leaves the lists again.
@@ -41,11 +43,11 @@ private:
 
     void takeMouse(const WindowEvents& events, const Window& window, const Stage& stage);
     void drag(const glm::vec2& moved, const Stage& stage);
-    void inspect(const Stage& stage);
     void choose(Dropped kind, const std::filesystem::path& file);
     Framing framing(const Stage& stage) const;
 
-    void begin(Drag drag, int button);
+    // Where a button was pressed, if one was.
+    void begin(const WindowEvents& events, const Window& window, const Stage& stage);
 
     Drag drag_ = Drag::none;
     int dragButton_ = 0;

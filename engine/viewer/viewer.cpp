@@ -372,6 +372,7 @@ void ViewerWindow::drawFrame()
     placed_.clear();
     const Stage stage = this->stage();
     placePicture(stage);
+    input_.inspect(stage);
     ui_->begin();
     describePanels(stage);
     ui_->end();

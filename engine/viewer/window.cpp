@@ -46,6 +46,9 @@ void onButton(GLFWwindow* window, int button, int action, int)
         return;
     }
     (action == GLFW_PRESS ? events.pressed : events.released)[button] = true;
+    if (action == GLFW_PRESS) {
+        events.pressedAt = static_cast<Window*>(glfwGetWindowUserPointer(window))->cursorOfEvents;
+    }
     if (button == 0 && action == GLFW_PRESS) {
         double x = 0, y = 0;
         glfwGetCursorPos(window, &x, &y);
@@ -64,13 +67,20 @@ void onDrop(GLFWwindow* window, int count, const char** paths)
     events.dropped.insert(events.dropped.end(), paths, paths + count);
 }
 
+void onCursor(GLFWwindow* window, double x, double y)
+{
+    Window& owner = *static_cast<Window*>(glfwGetWindowUserPointer(window));
+    owner.cursorOfEvents = owner.density() * glm::vec2(x, y);
+    eventsOf(window);
+}
+
 void installCallbacks(GLFWwindow* window)
 {
     glfwSetKeyCallback(window, onKey);
     glfwSetMouseButtonCallback(window, onButton);
     glfwSetDropCallback(window, onDrop);
     glfwSetScrollCallback(window, [](GLFWwindow* w, double, double y) { eventsOf(w).wheel += static_cast<float>(y); });
-    glfwSetCursorPosCallback(window, [](GLFWwindow* w, double, double) { eventsOf(w); });
+    glfwSetCursorPosCallback(window, onCursor);
     glfwSetCursorEnterCallback(window, [](GLFWwindow* w, int) { eventsOf(w); });
     glfwSetWindowFocusCallback(window, [](GLFWwindow* w, int) { eventsOf(w); });
     glfwSetWindowRefreshCallback(window, [](GLFWwindow* w) { eventsOf(w); });
@@ -208,12 +218,16 @@ glm::vec2 Window::cursor() const
 {
     double x = 0, y = 0;
     glfwGetCursorPos(window_, &x, &y);
+    return glm::vec2(x, y) * density();
+}
+
+glm::vec2 Window::density() const
+{
     glm::ivec2 size(1), framebuffer(1);
     glfwGetWindowSize(window_, &size.x, &size.y);
     glfwGetFramebufferSize(window_, &framebuffer.x, &framebuffer.y);
-    const glm::vec2 density(size.x > 0 ? static_cast<float>(framebuffer.x) / static_cast<float>(size.x) : 1.0f,
-                            size.y > 0 ? static_cast<float>(framebuffer.y) / static_cast<float>(size.y) : 1.0f);
-    return glm::vec2(x, y) * density;
+    return glm::vec2(size.x > 0 ? static_cast<float>(framebuffer.x) / static_cast<float>(size.x) : 1.0f,
+                     size.y > 0 ? static_cast<float>(framebuffer.y) / static_cast<float>(size.y) : 1.0f);
 }
 
 bool Window::isHeld(int button) const

@@ -22,6 +22,7 @@ struct WindowEvents {
     float wheel = 0;             // steps, positive away from the user
     bool pressed[kButtons] = {}; // left, right, middle
     bool released[kButtons] = {};
+    glm::vec2 pressedAt{0, 0};  // the last of them: the cursor may have gone on since
     bool doubleClicked = false; // left
     bool resized = false;
     bool any = false; // these, a cursor that moved, a window that was uncovered
@@ -43,6 +44,7 @@ public:
     glm::ivec2 framebufferSize() const; // 0 where minimised
     float contentScale() const;         // of the screen: 2 where 192 dots an inch
     glm::vec2 cursor() const;           // framebuffer pixels
+    glm::vec2 density() const;          // framebuffer pixels a unit of the desktop
     bool isHeld(int button) const;      // 0 left, 1 right, 2 middle
     bool isShiftHeld() const;
     bool shouldClose() const;
@@ -53,7 +55,8 @@ public:
     // Wakes waitForEvents; from any thread.
     static void wake();
 
-    WindowEvents pending; // filled by the callbacks
+    WindowEvents pending;           // filled by the callbacks
+    glm::vec2 cursorOfEvents{0, 0}; // framebuffer pixels
 
 private:
     GLFWwindow* window_ = nullptr;
