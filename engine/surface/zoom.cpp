@@ -13,7 +13,9 @@
 namespace nacre {
 namespace {
 
-constexpr int kNeighbours = 9; // the pixel of a place and those around it
+// Normals further apart are of two surfaces, one before the other, or of an edge: what lies between is neither's.
+constexpr float kSameSurface = 0.5f; // cosine
+constexpr int kNeighbours = 9;       // the pixel of a place and those around it
 
 // The pixels around a place, and the weights of those of one material, which add up to 1 where there are any.
 struct Neighbours {
@@ -35,8 +37,8 @@ float splineWeight(float away)
     return a < 0.5f ? 0.75f - a * a : 0.5f * (1.5f - a) * (1.5f - a);
 }
 
-// Leaves weights of the material that has most, which then add up to 1.
-void keepOneMaterial(const Surface& surface, Neighbours& found)
+// Leaves weights of the material that has most, on the surface of its nearest pixel; they then add up to 1.
+void keepOneSurface(const Surface& surface, Neighbours& found)
 {
     const auto weightOf = [&](uint8_t label) {
         float sum = 0;
@@ -53,8 +55,22 @@ void keepOneMaterial(const Surface& surface, Neighbours& found)
             found.label = label;
         }
     }
+    const auto isKept = [&](int k) { return surface.labels[found.pixels[k]] == found.label && found.weights[k] > 0; };
+    int nearest = -1;
     for (int k = 0; k < kNeighbours; ++k) {
-        found.weights[k] *= surface.labels[found.pixels[k]] == found.label && most > 0 ? 1 / most : 0.0f;
+        if (isKept(k) && (nearest < 0 || found.weights[k] > found.weights[nearest])) {
+            nearest = k;
+        }
+    }
+    float sum = 0;
+    for (int k = 0; k < kNeighbours; ++k) {
+        const bool isSame = isKept(k) && glm::dot(surface.normals.normals[found.pixels[k]],
+                                                  surface.normals.normals[found.pixels[nearest]]) >= kSameSurface;
+        found.weights[k] = isSame ? found.weights[k] : 0.0f;
+        sum += found.weights[k];
+    }
+    for (float& weight : found.weights) {
+        weight = sum > 0 ? weight / sum : 0.0f;
     }
 }
 
@@ -79,7 +95,7 @@ Neighbours neighboursOf(const Surface& surface, const glm::vec2& place)
     if (linear == 0) { // just outside
         found.weights = splines;
     }
-    keepOneMaterial(surface, found);
+    keepOneSurface(surface, found);
     return found;
 }
 

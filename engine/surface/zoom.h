@@ -20,7 +20,7 @@ struct Zoom {
 Zoom wholeZoom(int width, int height, float scale);
 
 // A surface's pixels between its own: normals, factors and all else that pixels have, bilinear between the neighbours
-// of the material that has most of the place.
+// of the material that has most of the place, as far as they lie on one surface.
 struct MagnifiedSurface {
     Surface pixels; // without materials and heights
     // Share of each that the object covers, / 255: its outline is where half of the neighbours are.

@@ -63,6 +63,21 @@ TEST(Zoom, MaterialsDoNotMix)
     }
 }
 
+TEST(Zoom, NothingLiesBetweenTheSidesOfAFold)
+{
+    Surface fold = transferredSurface(NormalMap(8, 8), Material{});
+    const glm::vec3 left(-0.8f, 0, 0.6f), right(0.8f, 0, 0.6f);
+    for (size_t i = 0; i < fold.labels.size(); ++i) {
+        fold.labels[i] = 0;
+        fold.normals.confidence[i] = 1;
+        fold.normals.normals[i] = i % 8 < 4 ? left : right;
+    }
+    const MagnifiedSurface near = magnified(fold, wholeZoom(8, 8, 5));
+    for (size_t i = 0; i < near.cover.size(); ++i) {
+        ASSERT_LT(glm::distance(near.pixels.normals.normals[i], i % 40 < 20 ? left : right), 1e-5f) << i;
+    }
+}
+
 TEST(Zoom, TheOutlineStaysWhereItIs)
 {
     const Surface surface = halvedSphere();
