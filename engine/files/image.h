@@ -47,6 +47,7 @@ struct Image {
 struct ImageHeader {
     int width = 0; // as displayed, after EXIF orientation
     int height = 0;
+    int orientation = 1; // EXIF: how the stored pixels are turned to be displayed
     int channels = 0;
     std::string format;    // OpenImageIO's name of it, e.g. "png"
     std::string pixelType; // e.g. "uint16", "float"
@@ -59,7 +60,9 @@ struct ImageHeader {
     std::optional<double> filmFocalLength; // EXIF: in mm, of the lens that would show as much on 35 mm film
 };
 
-// Throws Error (data) where the file is missing or no reader takes it.
+// Of several pictures in a file that in colour and full size is read, where it stands in its display window; pixels
+// that the file lacks there are black. Throws Error (data) where the file is missing, no reader takes it, or its
+// pictures leave a choice.
 ImageHeader readImageHeader(const std::filesystem::path& file);
 
 // Reads rows in ascending order, so that many large photographs can be walked side by side. Integers are divided by

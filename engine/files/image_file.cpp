@@ -14,6 +14,7 @@
 #include "engine/files/error.h"
 #include "engine/files/icc_profile.h"
 #include "engine/files/image.h"
+#include "engine/files/picture_parts.h"
 #include "engine/files/text_files.h"
 #include "engine/files/whole_file.h"
 
@@ -139,7 +140,42 @@ std::string firstLine(const std::string& text)
     return text.substr(0, text.find('\n'));
 }
 
-std::unique_ptr<OIIO::ImageInput> openInput(const fs::path& file)
+[[noreturn]] void throwUnreadable(const fs::path& file, const OIIO::ImageInput& input)
+{
+    throw Error(file, "cannot be read to its end: " + firstLine(input.geterror()), "a whole, undamaged picture");
+}
+
+// Where a format places its pixels in a picture of another size. A PNG's offset tells no size of the whole.
+OIIO::ROI pictureWindow(const OIIO::ImageInput& input)
+{
+    const std::string_view format = input.format_name();
+    const bool isPlaced = format == "openexr" || format == "tiff";
+    return isPlaced ? input.spec().roi_full() : input.spec().roi();
+}
+
+PicturePart partOf(const OIIO::ImageInput& input)
+{
+    const OIIO::ROI window = pictureWindow(input);
+    return {std::string(input.spec().get_string_attribute("oiio:subimagename")), window.width(), window.height(),
+            input.spec().channelnames};
+}
+
+// The other parts of these are layers of the first, or thumbnails.
+bool isWholeInFirst(const OIIO::ImageInput& input)
+{
+    const std::string_view format = input.format_name();
+    return format == "psd" || format == "heif";
+}
+
+// A file's one picture, open where it begins.
+struct OpenPicture {
+    std::unique_ptr<OIIO::ImageInput> input;
+    std::vector<int> channels; // of the file's, R, G, B, A first
+
+    const OIIO::ImageSpec& spec() const { return input->spec(); }
+};
+
+OpenPicture openPicture(const fs::path& file)
 {
     if (!fs::exists(file)) {
         throw Error(file, "does not exist", "a picture");
@@ -152,30 +188,19 @@ std::unique_ptr<OIIO::ImageInput> openInput(const fs::path& file)
     if (std::string_view(input->format_name()) == "jpeg" && !isCompleteJpeg(file)) {
         throw Error(file, "is cut off before its end", "a whole, undamaged picture");
     }
-    return input;
-}
-
-[[noreturn]] void throwUnreadable(const fs::path& file, const OIIO::ImageInput& input)
-{
-    throw Error(file, "cannot be read to its end: " + firstLine(input.geterror()), "a whole, undamaged picture");
-}
-
-// Positions of R, G, B, A among the file's channels (EXR lists them alphabetically), others behind in file order.
-std::vector<int> channelOrder(const OIIO::ImageSpec& spec)
-{
-    std::vector<int> order;
-    for (const char* name : {"R", "G", "B", "A"}) {
-        const auto found = std::find(spec.channelnames.begin(), spec.channelnames.end(), name);
-        if (found != spec.channelnames.end()) {
-            order.push_back(static_cast<int>(found - spec.channelnames.begin()));
-        }
+    std::vector<PicturePart> parts = {partOf(*input)};
+    for (int i = 1; !isWholeInFirst(*input) && input->seek_subimage(i, 0); ++i) {
+        parts.push_back(partOf(*input));
     }
-    for (int c = 0; c < spec.nchannels; ++c) {
-        if (std::find(order.begin(), order.end(), c) == order.end()) {
-            order.push_back(c);
-        }
+    input->geterror(); // there is no further part
+    const std::optional<ChosenPicture> chosen = choosePicture(parts);
+    if (!chosen) {
+        throw Error(file, "holds several pictures: " + describe(parts), "one in colour and full size");
     }
-    return order;
+    if (!input->seek_subimage(static_cast<int>(chosen->part), 0)) {
+        throwUnreadable(file, *input);
+    }
+    return {std::move(input), chosen->channels};
 }
 
 std::optional<IccColour> profileOf(const OIIO::ImageSpec& spec)
@@ -212,17 +237,19 @@ bool sidewaysOrientation(int orientation)
     return orientation >= 5;
 }
 
-ImageHeader headerOf(const fs::path& file, const OIIO::ImageInput& input)
+ImageHeader headerOf(const fs::path& file, const OpenPicture& picture)
 {
-    const OIIO::ImageSpec& spec = input.spec();
+    const OIIO::ImageSpec& spec = picture.spec();
+    const OIIO::ROI window = pictureWindow(*picture.input);
     ImageHeader header;
-    header.width = spec.width;
-    header.height = spec.height;
-    if (sidewaysOrientation(spec.get_int_attribute("Orientation", 1))) {
+    header.width = window.width();
+    header.height = window.height();
+    header.orientation = spec.get_int_attribute("Orientation", 1);
+    if (sidewaysOrientation(header.orientation)) {
         std::swap(header.width, header.height);
     }
-    header.channels = spec.nchannels;
-    header.format = input.format_name();
+    header.channels = static_cast<int>(picture.channels.size());
+    header.format = picture.input->format_name();
     header.pixelType = spec.format.c_str();
     const float seconds = spec.get_float_attribute("ExposureTime", 0.0f);
     if (seconds > 0) {
@@ -236,19 +263,55 @@ ImageHeader headerOf(const fs::path& file, const OIIO::ImageInput& input)
     return header;
 }
 
-// Whole picture as displayed, channels in file order.
-std::vector<float> readUpright(const fs::path& file, OIIO::ImageInput& input)
+// Pixels of `from` to where they stand in `to`; rows interleaved, windows in one frame.
+void placePixels(const OIIO::ROI& from, std::span<const float> pixels, const OIIO::ROI& to, int channels,
+                 std::span<float> out)
 {
-    const OIIO::ImageSpec spec = input.spec();
-    std::vector<float> values(spec.image_pixels() * spec.nchannels);
-    if (!input.read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, values.data())) {
+    const OIIO::ROI both = OIIO::roi_intersection(from, to);
+    const auto at = [&](const OIIO::ROI& window, int y) {
+        return (size_t{1} * (y - window.ybegin) * window.width() + (both.xbegin - window.xbegin)) * channels;
+    };
+    for (int y = both.ybegin; y < both.yend; ++y) {
+        std::copy_n(&pixels[at(from, y)], static_cast<size_t>(both.width()) * channels, &out[at(to, y)]);
+    }
+}
+
+// Rows of the window as stored, all of the file's channels; black where the file has no pixels.
+std::vector<float> readRows(const fs::path& file, OIIO::ImageInput& input, OIIO::ROI window)
+{
+    const OIIO::ImageSpec& spec = input.spec();
+    const int channels = spec.nchannels, part = input.current_subimage();
+    const OIIO::ROI whole = spec.roi();
+    OIIO::ROI data = whole;
+    data.ybegin = std::clamp(window.ybegin, whole.ybegin, whole.yend);
+    data.yend = std::clamp(window.yend, data.ybegin, whole.yend);
+    std::vector<float> values(static_cast<size_t>(data.width()) * data.height() * channels);
+    const bool isWhole = data.height() == whole.height();
+    const auto float32 = OIIO::TypeDesc::FLOAT;
+    const bool isRead = values.empty() || (isWhole ? input.read_image(part, 0, 0, channels, float32, values.data())
+                                                   : input.read_scanlines(part, 0, data.ybegin, data.yend, 0, 0,
+                                                                          channels, float32, values.data()));
+    if (!isRead) {
         throwUnreadable(file, input);
     }
-    const int orientation = spec.get_int_attribute("Orientation", 1);
+    if (data == window) {
+        return values;
+    }
+    std::vector<float> placed(static_cast<size_t>(window.width()) * window.height() * channels);
+    placePixels(data, values, window, channels, placed);
+    return placed;
+}
+
+// Whole picture as displayed, the file's channels.
+std::vector<float> readUpright(const fs::path& file, OIIO::ImageInput& input)
+{
+    const OIIO::ROI window = pictureWindow(input);
+    std::vector<float> values = readRows(file, input, window);
+    const int orientation = input.spec().get_int_attribute("Orientation", 1);
     if (orientation == 1) {
         return values;
     }
-    OIIO::ImageSpec turnedSpec(spec.width, spec.height, spec.nchannels, OIIO::TypeDesc::FLOAT);
+    OIIO::ImageSpec turnedSpec(window.width(), window.height(), input.spec().nchannels, OIIO::TypeDesc::FLOAT);
     turnedSpec.attribute("Orientation", orientation);
     const OIIO::ImageBuf stored(turnedSpec, values.data());
     const OIIO::ImageBuf upright = OIIO::ImageBufAlgo::reorient(stored);
@@ -274,20 +337,18 @@ void pickChannels(std::span<const float> from, int fromChannels, const std::vect
 
 ImageHeader readImageHeader(const fs::path& file)
 {
-    return headerOf(file, *openInput(file));
+    return headerOf(file, openPicture(file));
 }
 
 struct ImageRows::Reader {
     fs::path file;
     TransferCurve curve;
-    std::unique_ptr<OIIO::ImageInput> input;
+    OpenPicture picture;
     ImageHeader header;
-    std::vector<int> order;
     int channels = 0;
     bool streams = false;
     int nextRow = 0;
     std::vector<float> held; // the upright picture, file order, where rows cannot be streamed
-    std::vector<float> rows;
 };
 
 ImageRows::ImageRows(const fs::path& file, const TransferCurve& curve) : reader_(std::make_unique<Reader>())
@@ -295,14 +356,12 @@ ImageRows::ImageRows(const fs::path& file, const TransferCurve& curve) : reader_
     Reader& r = *reader_;
     r.file = file;
     r.curve = curve;
-    r.input = openInput(file);
-    r.header = headerOf(file, *r.input);
-    const OIIO::ImageSpec& spec = r.input->spec();
-    r.order = channelOrder(spec);
-    r.channels = spec.nchannels >= 3 ? 3 : 1;
+    r.picture = openPicture(file);
+    r.header = headerOf(file, r.picture);
+    r.channels = r.header.channels >= 3 ? 3 : 1;
     const bool rowFormat = r.header.format == "png" || r.header.format == "jpeg" || r.header.format == "tiff" ||
                            r.header.format == "openexr";
-    r.streams = rowFormat && spec.tile_width == 0 && spec.get_int_attribute("Orientation", 1) == 1;
+    r.streams = rowFormat && r.picture.spec().tile_width == 0 && r.header.orientation == 1;
 }
 
 ImageRows::~ImageRows() = default;
@@ -327,28 +386,24 @@ bool ImageRows::streams() const
 void ImageRows::read(int first, int last, std::span<float> out)
 {
     Reader& r = *reader_;
-    const int fileChannels = r.header.channels;
+    const int fileChannels = r.picture.spec().nchannels;
     const size_t rowValues = static_cast<size_t>(r.header.width) * fileChannels;
     if (first < r.nextRow || last > r.header.height) {
         throw std::logic_error("rows are read once, in ascending order");
     }
     r.nextRow = last;
-    std::span<const float> source;
     if (r.streams) {
-        r.rows.resize(rowValues * (last - first));
-        const int top = r.input->spec().y;
-        if (!r.input->read_scanlines(0, 0, top + first, top + last, 0, 0, fileChannels, OIIO::TypeDesc::FLOAT,
-                                     r.rows.data())) {
-            throwUnreadable(r.file, *r.input);
-        }
-        source = r.rows;
+        OIIO::ROI band = pictureWindow(*r.picture.input);
+        band.yend = band.ybegin + last;
+        band.ybegin += first;
+        pickChannels(readRows(r.file, *r.picture.input, band), fileChannels, r.picture.channels, r.channels, out);
     } else {
         if (r.held.empty()) {
-            r.held = readUpright(r.file, *r.input);
+            r.held = readUpright(r.file, *r.picture.input);
         }
-        source = std::span(r.held).subspan(rowValues * first, rowValues * (last - first));
+        pickChannels(std::span(r.held).subspan(rowValues * first, rowValues * (last - first)), fileChannels,
+                     r.picture.channels, r.channels, out);
     }
-    pickChannels(source, fileChannels, r.order, r.channels, out);
     decodeCurve(out, r.curve);
 }
 
@@ -370,17 +425,17 @@ Image loadPhotograph(const fs::path& file, const TransferCurve& curve)
 
 Image loadImage(const fs::path& file)
 {
-    const auto input = openInput(file);
-    const ImageHeader header = headerOf(file, *input);
+    const OpenPicture picture = openPicture(file);
+    const ImageHeader header = headerOf(file, picture);
     Image image(header.width, header.height, header.channels);
-    pickChannels(readUpright(file, *input), header.channels, channelOrder(input->spec()), header.channels,
+    pickChannels(readUpright(file, *picture.input), picture.spec().nchannels, picture.channels, header.channels,
                  image.values);
     return image;
 }
 
 std::string readImageAttribute(const fs::path& file, const std::string& name)
 {
-    return std::string(openInput(file)->spec().get_string_attribute(name));
+    return std::string(openPicture(file).spec().get_string_attribute(name));
 }
 
 namespace {
