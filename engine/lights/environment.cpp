@@ -99,19 +99,42 @@ glm::dvec3 environmentDirection(const Image& radiance, int x, int y)
     return {std::sin(longitude) * std::cos(latitude), std::sin(latitude), std::cos(longitude) * std::cos(latitude)};
 }
 
+namespace {
+
+std::string clampRadiance(Image& image)
+{
+    float largest = 0;
+    for (const float value : image.values) {
+        largest = std::isfinite(value) ? std::max(largest, value) : largest;
+    }
+    size_t count = 0, first = 0;
+    for (size_t i = 0; i < image.values.size(); ++i) {
+        float& value = image.values[i];
+        if (value >= 0 && std::isfinite(value)) {
+            continue;
+        }
+        value = value > 0 ? largest : 0;
+        first = count++ == 0 ? i / image.channels : first;
+    }
+    return count == 0
+               ? ""
+               : fmt::format("{} values are negative or not finite, the first at pixel {}, {}: taken for 0 and {:g}",
+                             count, first % image.width, first / image.width, largest);
+}
+
+} // namespace
+
 Environment loadEnvironment(const std::filesystem::path& file)
 {
-    Image image = loadPhotograph(file, TransferCurve::linear);
+    ImageRows rows(file, TransferCurve::linear);
+    Image image(rows.header().width, rows.header().height, rows.channels());
     if (image.width != 2 * image.height) {
         throw Error(file, fmt::format("is {} x {} pixels", image.width, image.height),
                     "a latitude-longitude environment, twice as wide as high");
     }
-    for (const float value : image.values) {
-        if (!(value >= 0) || !std::isfinite(value)) {
-            throw Error(file, "has a negative or infinite value", "radiance of 0 or more");
-        }
-    }
-    return {std::move(image)};
+    rows.read(0, image.height, image.values);
+    std::string clamped = clampRadiance(image);
+    return {std::move(image), std::move(clamped)};
 }
 
 std::vector<Light> lightsFromEnvironment(const Environment& environment, int count, float turn)

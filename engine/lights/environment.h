@@ -1,5 +1,6 @@
 #pragma once
 #include <filesystem>
+#include <string>
 #include <vector>
 
 #include "engine/files/image.h"
@@ -13,10 +14,12 @@ inline constexpr int kEnvironmentLights = 256;
 // Radiance from all directions as a latitude-longitude picture, as OpenEXR's envmaps have it: +y on top, +z (the
 // camera's side) in the middle of the width, +x (right of the camera) a quarter of the width to the left of it.
 struct Environment {
-    Image radiance; // RGB
+    Image radiance;        // RGB
+    std::string clamped{}; // how many values were no radiance and what became of them; empty where all are
 };
 
-// EXR or HDR. Throws Error where the picture is not twice as wide as high, or has negative or infinite values.
+// EXR or HDR. What is negative or no number becomes 0, what is infinite the largest value. Throws Error where the
+// picture is not twice as wide as high.
 Environment loadEnvironment(const std::filesystem::path& file);
 
 // Unit, of the middle of a pixel of a latitude-longitude picture.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
@@ -60,6 +61,19 @@ std::vector<glm::vec3> vectorsOf(const fs::path& file, const NumberTable& rows)
     return vectors;
 }
 
+LightFile lightsOf(const fs::path& file, std::vector<glm::vec3> vectors)
+{
+    LightFile result;
+    for (const glm::vec3& v : vectors) {
+        if (!isDirection(v)) {
+            throw Error(file, fmt::format("light {} is {}", &v - vectors.data() + 1, described(v)), kDirection);
+        }
+        result.lights.push_back({normalized(v), glm::vec3(1)});
+    }
+    result.vectors = std::move(vectors);
+    return result;
+}
+
 LightFile loadLightsJson(const fs::path& file)
 {
     const JsonNode root = JsonNode::loadVersioned(file, kLightsFormat, kLightsVersion);
@@ -90,11 +104,39 @@ LightFile loadLightsJson(const fs::path& file)
     return result;
 }
 
+// The first matrix of an OpenCV FileStorage in YAML: its data in rows of three.
+LightFile loadOpenCvMatrix(const fs::path& file)
+{
+    constexpr const char* kMatrix = "a matrix of OpenCV with three columns or three rows";
+    const std::string text = readTextFile(file);
+    const size_t data = text.find("data:"), first = text.find('[', data), last = text.find(']', first),
+                 columns = text.find("cols:");
+    if (data == std::string::npos || last == std::string::npos || columns == std::string::npos) {
+        throw Error(file, "holds no matrix", kMatrix);
+    }
+    const size_t across = std::max<size_t>(1, std::strtoul(&text[columns + 5], nullptr, 10));
+    std::string list = text.substr(first + 1, last - first - 1);
+    std::replace_if(
+        list.begin(), list.end(), [](char c) { return c == ',' || c == '\n' || c == '\r'; }, ' ');
+    const NumbersAtEnd all = takeNumbersFromEnd(list, std::string_view::npos);
+    if (!all.rest.empty() || all.numbers.empty() || all.numbers.size() % across != 0) {
+        throw Error(file, fmt::format("has {} numbers in {} columns", all.numbers.size(), across), kMatrix);
+    }
+    NumberTable rows;
+    for (auto row = all.numbers.begin(); row != all.numbers.end(); row += static_cast<std::ptrdiff_t>(across)) {
+        rows.emplace_back(row, row + static_cast<std::ptrdiff_t>(across));
+    }
+    return lightsOf(file, vectorsOf(file, rows));
+}
+
 } // namespace
 
 LightFile loadLightFile(const fs::path& file)
 {
     const std::string extension = lowerCase(file.extension().string());
+    if (extension == ".yml" || extension == ".yaml") {
+        return loadOpenCvMatrix(file);
+    }
     if (extension == ".lp") {
         return loadLpFile(file);
     }
@@ -109,16 +151,39 @@ namespace {
 struct LpLine {
     std::string_view photograph;
     glm::vec3 vector;
+    std::optional<double> irradiance;
 };
 
-// "file x y z"; empty where it is none.
+// "file x y z", or "file x y z irradiance" where what stands before four numbers ends as a file's name; empty where it
+// is neither.
 std::optional<LpLine> parseLpLine(std::string_view line)
 {
-    const NumbersAtEnd found = takeNumbersFromEnd(line, 3);
-    if (found.numbers.size() != 3 || found.rest.empty()) {
+    const NumbersAtEnd last = takeNumbersFromEnd(line, 3);
+    if (last.numbers.size() < 3 || last.rest.empty()) {
         return std::nullopt;
     }
-    return LpLine{found.rest, glm::vec3(found.numbers[0], found.numbers[1], found.numbers[2])};
+    const std::vector<double>& n = last.numbers;
+    const NumbersAtEnd first = takeNumbersFromEnd(last.rest, 1);
+    if (first.numbers.empty() || !fs::path(first.rest).has_extension()) {
+        return LpLine{last.rest, glm::vec3(n[0], n[1], n[2]), {}};
+    }
+    return LpLine{first.rest, glm::vec3(first.numbers[0], n[0], n[1]), n[2]};
+}
+
+// Of a line whose list began with `first`.
+Light lightOf(const fs::path& file, const LpLine& line, const std::optional<LpLine>& first)
+{
+    if (!isDirection(line.vector)) {
+        throw Error(file, fmt::format("the light of {} is {}", line.photograph, described(line.vector)), kDirection);
+    }
+    const glm::vec3 irradiance(line.irradiance.value_or(1));
+    if (!isIrradiance(irradiance) || (first && first->irradiance.has_value() != line.irradiance.has_value())) {
+        throw Error(file,
+                    fmt::format("the fourth number of {} is {}", line.photograph,
+                                line.irradiance ? fmt::format("{}", *line.irradiance) : "missing"),
+                    "an irradiance above 0 for all photographs or for none");
+    }
+    return {normalized(line.vector), irradiance};
 }
 
 } // namespace
@@ -154,28 +219,17 @@ LightFile loadLpFile(const fs::path& file)
         if (!line) {
             throw Error(file, fmt::format("\"{}\" is no photograph with its light", lines[i]), "\"file x y z\"");
         }
-        if (!isDirection(line->vector)) {
-            throw Error(file, fmt::format("the light of {} is {}", line->photograph, described(line->vector)),
-                        kDirection);
-        }
+        result.lights.push_back(lightOf(file, *line, parseLpLine(lines[counted ? 1 : 0])));
         result.photographs.emplace_back(line->photograph);
         result.vectors.push_back(line->vector);
-        result.lights.push_back({normalized(line->vector), glm::vec3(1)});
+        result.irradianceGiven = line->irradiance.has_value();
     }
     return result;
 }
 
 LightFile loadDirectionTable(const fs::path& file)
 {
-    LightFile result;
-    result.vectors = vectorsOf(file, loadNumberTable(file));
-    for (const glm::vec3& v : result.vectors) {
-        if (!isDirection(v)) {
-            throw Error(file, fmt::format("light {} is {}", &v - result.vectors.data() + 1, described(v)), kDirection);
-        }
-        result.lights.push_back({normalized(v), glm::vec3(1)});
-    }
-    return result;
+    return lightsOf(file, vectorsOf(file, loadNumberTable(file)));
 }
 
 std::vector<glm::vec3> loadIrradiances(const fs::path& file)

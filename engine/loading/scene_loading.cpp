@@ -296,6 +296,9 @@ Scene loadScene(const SceneDescription& description, const SceneInputs& inputs, 
     std::optional<Environment> environment;
     if (!lit.environment.empty()) {
         environment = loadEnvironment(lit.environment);
+        if (!quiet && !environment->clamped.empty()) {
+            fmt::print(stderr, "nacre: note: {}: {}\n", lit.environment.string(), environment->clamped);
+        }
     }
     scene.lights = lightsOfScene(lit, environment ? &*environment : nullptr, scene.surface.lights);
     if (!quiet && description.residual != ResidualUse::off) {

@@ -183,6 +183,20 @@ std::string absoluteSpecification(const std::string& text)
 
 } // namespace
 
+namespace {
+
+// Of a mistake that was found in a value, about the file that holds it.
+Error inFile(const fs::path& file, const Error& error)
+{
+    const std::string text = error.what();
+    const size_t end = text.find("; ");
+    return text.starts_with(file.string()) || end == std::string::npos
+               ? error
+               : Error(file, text.substr(0, end), text.substr(end + 2));
+}
+
+} // namespace
+
 SceneDescription sceneFromFile(const fs::path& file)
 {
     SceneDescription scene;
@@ -203,6 +217,8 @@ SceneDescription sceneFromFile(const fs::path& file)
         requireNothingLeft(window, file, "the keys of \"window\" in docs/formats.md");
     } catch (const SceneJson::exception& e) {
         throw Error(file, std::string("is not understood: ") + e.what(), "the form of docs/formats.md");
+    } catch (const Error& e) {
+        throw inFile(file, e);
     }
     return scene;
 }

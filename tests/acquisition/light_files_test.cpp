@@ -216,5 +216,18 @@ TEST_F(LightFiles, JsonIsReadStrictly)
     expectError(load("[]", R"("format":"nacre capture","version":1)"), {"format is \"nacre capture\""});
 }
 
+TEST(LightFileKinds, AMatrixOfOpenCv)
+{
+    const TempFolder folder;
+    writeText(folder / "m.yml", "%YAML:1.0\nLights: !!opencv-matrix\n   rows: 2\n   cols: 3\n   dt: f\n"
+                                "   data: [ 6e-01, 0., 8.e-01,\n       0., -1., 0. ]\n");
+    const LightFile lights = loadLightFile(folder / "m.yml");
+    ASSERT_EQ(lights.lights.size(), 2u);
+    EXPECT_NEAR(lights.lights[0].direction.z, 0.8f, 1e-6f);
+    EXPECT_EQ(lights.lights[1].direction, glm::vec3(0, -1, 0));
+    writeText(folder / "n.yml", "a: 1\n");
+    expectError([&] { loadLightFile(folder / "n.yml"); }, {"n.yml", "holds no matrix"});
+}
+
 } // namespace
 } // namespace nacre

@@ -1,5 +1,6 @@
 // Environments reduced to lights, soft lights, and lights that move.
 #include <cmath>
+#include <limits>
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
@@ -82,10 +83,22 @@ TEST(Environment, OtherShapesAreRefused)
     const TempFolder folder;
     saveImage(folder / "square.exr", Image(8, 8, 3, 1), PixelType::float32);
     expectError([&] { loadEnvironment(folder / "square.exr"); }, {"8 x 8", "twice as wide as high"});
-    Image negative = Image(8, 4, 3, 1);
-    negative.values[5] = -1;
-    saveImage(folder / "negative.exr", negative, PixelType::float32);
-    expectError([&] { loadEnvironment(folder / "negative.exr"); }, {"negative"});
+}
+
+TEST(Environment, WhatIsNoRadianceIsClampedAndTold)
+{
+    const TempFolder folder;
+    Image picture(8, 4, 3, 2.5f);
+    picture.at(1, 0, 2) = -1;
+    picture.at(3, 2, 0) = std::numeric_limits<float>::infinity();
+    picture.at(4, 2, 0) = std::numeric_limits<float>::quiet_NaN();
+    saveImage(folder / "sky.exr", picture, PixelType::float32);
+    const Environment sky = loadEnvironment(folder / "sky.exr");
+    EXPECT_EQ(sky.radiance.at(1, 0, 2), 0);
+    EXPECT_EQ(sky.radiance.at(3, 2, 0), 2.5f);
+    EXPECT_EQ(sky.radiance.at(4, 2, 0), 0);
+    EXPECT_EQ(sky.radiance.at(4, 2, 1), 2.5f);
+    EXPECT_EQ(sky.clamped, "3 values are negative or not finite, the first at pixel 1, 0: taken for 0 and 2.5");
 }
 
 TEST(SoftLight, IsTheLightSpread)
