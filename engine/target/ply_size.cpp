@@ -170,6 +170,11 @@ void requireWholePly(const fs::path& file)
 {
     std::ifstream stream(file, std::ios::binary);
     const Header header = readHeader(file, stream);
+    for (const Element& element : header.elements) {
+        if (element.name == "tristrips" && element.count > 0) {
+            throw Error(file, "holds triangle strips", "triangles or polygons, as 'element face'");
+        }
+    }
     if (header.text) {
         requireLines(file, header, stream);
     } else {

@@ -137,6 +137,13 @@ TEST_F(MeshFileTest, ACutFileSaysWhatWasExpected)
     expectError([&] { loadMesh(cut("a.ply", plyText(), 15)); }, {"a.ply", "cut off after 1 of its 2 face"});
     expectError([&] { loadMesh(cut("b.ply", plyBinary(), 5)); }, {"b.ply", "cut off after 1 of its 2 face"});
     expectError([&] { loadMesh(cut("v.ply", plyBinary(), 30)); }, {"v.ply", "cut off after 3 of its 4 vertex"});
+    expectError(
+        [&] {
+            loadMesh(write("s.ply", "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty "
+                                    "float y\nproperty float z\nelement tristrips 1\nproperty list int int "
+                                    "vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n1 1 0\n4 0 1 2 3\n"));
+        },
+        {"s.ply", "triangle strips", "element face"});
     expectError([&] { loadMesh(write("h.ply", "ply\nformat ascii 1.0\n")); }, {"h.ply", "header", "end_header"});
     expectError([&] { loadMesh(cut("a.stl", stlBinary(), 7)); }, {"a.stl", "cannot be read"});
     expectError([&] { loadMesh(write("t.stl", "solid x\nfacet normal 0 0 1\nouter loop\n")); },
