@@ -7,6 +7,7 @@
 #include "acquisition/capture/capture_layouts.h"
 #include "acquisition/capture/capture_maps.h"
 #include "engine/files/error.h"
+#include "engine/files/text_files.h"
 
 namespace nacre {
 namespace fs = std::filesystem;
@@ -20,12 +21,20 @@ constexpr const char* kLayouts =
     "(RTI); photographs NAME.0.*, NAME.1.*, ... with NAME.mask.* (University of Washington); or any photographs with "
     "--rig or --mirror-sphere";
 
+// A list of photographs by its own name.
+std::optional<LayoutContents> readList(const fs::path& file)
+{
+    const std::string extension = lowerExtension(file);
+    return extension == ".json" ? readJsonLayout(file) : extension == ".lp" ? readRtiLayout(file, {}) : std::nullopt;
+}
+
 LayoutContents readLayout(const fs::path& folder, const CaptureOptions& options)
 {
-    if (!fs::is_directory(folder)) {
-        throw Error(folder, fs::exists(folder) ? "is no folder" : "does not exist", "the folder of a capture");
+    auto contents = fs::is_directory(folder) ? readJsonLayout(folder / "capture.json") : readList(folder);
+    if (!contents && !fs::is_directory(folder)) {
+        throw Error(folder, fs::exists(folder) ? "is no folder" : "does not exist",
+                    "the folder of a capture, its .lp or its capture.json");
     }
-    auto contents = readJsonLayout(folder);
     if (!contents) {
         contents = readDiligentLayout(folder);
     }
@@ -43,7 +52,8 @@ LayoutContents readLayout(const fs::path& folder, const CaptureOptions& options)
     }
     contents->capture.folder = folder;
     if (contents->capture.name.empty()) {
-        contents->capture.name = fs::weakly_canonical(folder).filename().string();
+        const fs::path whole = fs::weakly_canonical(folder);
+        contents->capture.name = (fs::is_directory(folder) ? whole : whole.parent_path()).filename().string();
     }
     return *contents;
 }
@@ -66,8 +76,17 @@ void applyOptions(LayoutContents& contents, const CaptureOptions& options)
         contents.offset = options.offset;
     }
     if (!options.mirrorSphere.empty()) {
-        contents.capture.mirrorSphere = namedSphere("mirror sphere", options.mirrorSphere, contents);
+        contents.capture.mirrorSphere = namedSphere("mirror sphere", options.mirrorSphere, contents, options.circle);
         replaceDirections(contents.capture);
+    }
+    if (options.circle && options.mirrorSphere.empty()) {
+        throw Error("", "--circle is not possible without a mirror sphere", "--mirror-sphere beside it", Error::kUsage);
+    }
+    if (!options.ambient.empty()) {
+        contents.capture.ambient = photographOf(options.ambient);
+    }
+    if (options.window.width > 0 || options.window.box > 1) {
+        contents.capture.window = options.window;
     }
     for (const fs::path& more : options.moreMirrorSpheres) {
         addMirrorSphere(more, contents);
@@ -129,7 +148,7 @@ void loadSmooth(Capture& capture)
         return;
     }
     const FileWindow& w = capture.window;
-    capture.smooth = windowedMarks(loadMask(capture.smoothFile, w.fileWidth, w.fileHeight), capture);
+    capture.smooth = windowedMarks(loadMask(capture.smoothFile, w.fileWidth, w.fileHeight).inside, capture);
     size_t marked = 0;
     for (size_t i = 0; i < capture.mask.size(); ++i) {
         marked += capture.smooth[i] && capture.mask[i];
@@ -181,10 +200,14 @@ Capture loadCapture(const fs::path& folder, const CaptureOptions& options)
     requireSphereMask(capture.mirrorSphere);
     requireSphereMask(capture.diffuseSphere);
     const FileWindow& window = capture.window;
-    capture.mask = contents.masks.empty()
-                       ? std::vector<uint8_t>(static_cast<size_t>(capture.width) * capture.height, uint8_t{1})
-                       : windowedMask(loadMask(contents.masks[0], window.fileWidth, window.fileHeight), capture,
-                                      contents.masks[0]);
+    if (contents.masks.empty()) {
+        capture.mask.assign(static_cast<size_t>(capture.width) * capture.height, uint8_t{1});
+    } else {
+        const fs::path& file = contents.masks[0];
+        const MaskPicture mask = loadMask(file, window.fileWidth, window.fileHeight);
+        capture.mask = windowedMask(mask.inside, capture, file);
+        capture.maskSource = file.filename().string() + (mask.isAlpha ? ", its alpha" : "");
+    }
     capture.maskPixels = std::count(capture.mask.begin(), capture.mask.end(), uint8_t{1});
     loadSmooth(capture);
     if (contents.offset) {

@@ -87,6 +87,7 @@ struct Capture {
     std::string lightsOrder;   // how they were matched to photographs, for the user; empty where they come with them
     std::vector<uint8_t> mask; // width x height, 1 on the object
     size_t maskPixels = 0;
+    std::string maskSource;      // for the user; empty where there is none, and all is the object
     std::vector<uint8_t> smooth; // 1 where normals are not to be estimated but smoothed in; empty where nowhere
     std::optional<SpherePhotographs> mirrorSphere;
     std::optional<SpherePhotographs> diffuseSphere;
@@ -119,7 +120,10 @@ struct CaptureOptions {
     std::filesystem::path smooth;       // picture that is white where normals are to be smoothed in
     std::filesystem::path mirrorSphere; // folder of photographs and a mask, or in-picture:X,Y,W,H[,MASK]
     std::vector<std::filesystem::path> moreMirrorSpheres; // in-picture:X,Y,W,H[,MASK], beside one of these
+    std::optional<Circle> circle;                         // the mirror sphere's outline, in pixels of its files
     std::filesystem::path diffuseSphere;
+    std::filesystem::path ambient; // photograph without the lights
+    FileWindow window;             // 0 wide: the folder's own
     std::vector<std::string> skip; // names of photographs, with or without extension
     std::optional<OffsetChoice> offset;
     std::optional<double> lightDistance; // in widths of the object; infinite: distant, whatever the photographs tell

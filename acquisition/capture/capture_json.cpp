@@ -283,9 +283,8 @@ void readSpheres(const JsonNode& root, Capture& capture)
 
 } // namespace
 
-std::optional<LayoutContents> readJsonLayout(const fs::path& folder)
+std::optional<LayoutContents> readJsonLayout(const fs::path& file)
 {
-    const fs::path file = folder / "capture.json";
     if (!fs::exists(file)) {
         return std::nullopt;
     }

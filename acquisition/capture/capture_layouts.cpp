@@ -24,7 +24,7 @@ namespace {
 
 constexpr const char* kSphereFolder =
     "one sphere in a folder, as NAME.mask.* and NAME.0.*, NAME.1.*, ..., or as pictures of "
-    "which one has \"mask\" in its name";
+    "which one has \"mask\" in its name, or --circle";
 
 std::vector<Photograph> photographsOf(const std::vector<fs::path>& files)
 {
@@ -50,7 +50,7 @@ std::optional<LayoutContents> readUwLayout(const fs::path& folder)
     return contents;
 }
 
-SpherePhotographs readSphereFolder(const fs::path& folder)
+SpherePhotographs readSphereFolder(const fs::path& folder, const std::optional<Circle>& outline)
 {
     if (!fs::is_directory(folder)) {
         throw Error(folder, fs::exists(folder) ? "is no folder" : "does not exist", kSphereFolder);
@@ -65,7 +65,7 @@ SpherePhotographs readSphereFolder(const fs::path& folder)
             (isNamedMask(file) ? masks : photographs).push_back(file);
         }
     }
-    if (masks.size() != 1 || photographs.empty()) {
+    if ((masks.size() != 1 && !outline) || photographs.empty()) {
         throw Error(folder,
                     fmt::format("holds {} photographs and {} masks of a sphere", photographs.size(), masks.size()),
                     kSphereFolder);
@@ -73,7 +73,8 @@ SpherePhotographs readSphereFolder(const fs::path& folder)
     SpherePhotographs sphere;
     sphere.source = folder;
     sphere.photographs = photographsOf(photographs);
-    sphere.maskFile = masks[0];
+    sphere.circle = outline;
+    sphere.maskFile = outline ? fs::path() : masks[0];
     return sphere;
 }
 
@@ -98,11 +99,25 @@ namespace {
 constexpr const char* kDirectionsFile = "light_directions.txt";
 constexpr const char* kIntensitiesFile = "light_intensities.txt";
 
+// The file of that name or, where there is none, the only one whose name is the same to a person.
+fs::path findFile(const fs::path& folder, const fs::path& name)
+{
+    const fs::path exact = folder / name;
+    std::vector<fs::path> alike;
+    std::error_code ignored;
+    for (const fs::directory_entry& entry : fs::directory_iterator(exact.parent_path(), ignored)) {
+        if (comparable(entry.path().filename().string()) == comparable(name.filename().string())) {
+            alike.push_back(entry.path());
+        }
+    }
+    return !fs::exists(exact) && alike.size() == 1 ? alike[0] : exact;
+}
+
 LightFile loadDiligentLights(const fs::path& folder)
 {
-    LightFile result = loadDirectionTable(folder / kDirectionsFile);
-    if (fs::exists(folder / kIntensitiesFile)) {
-        addIrradiances(result, folder / kIntensitiesFile);
+    LightFile result = loadDirectionTable(findFile(folder, kDirectionsFile));
+    if (const fs::path intensities = findFile(folder, kIntensitiesFile); fs::exists(intensities)) {
+        addIrradiances(result, intensities);
     }
     return result;
 }
@@ -111,7 +126,7 @@ LightFile loadDiligentLights(const fs::path& folder)
 
 std::optional<LayoutContents> readDiligentLayout(const fs::path& folder)
 {
-    const fs::path listing = folder / "filenames.txt";
+    const fs::path listing = findFile(folder, "filenames.txt");
     if (!fs::exists(listing)) {
         return std::nullopt;
     }
@@ -119,13 +134,14 @@ std::optional<LayoutContents> readDiligentLayout(const fs::path& folder)
     contents.capture.layout = CaptureLayout::diligent;
     contents.listing = listing;
     for (const std::string& name : loadTextLines(listing)) {
-        if (!fs::exists(folder / name)) {
-            throw Error(folder / name, "does not exist", "a photograph, as filenames.txt lists it");
+        const fs::path file = findFile(folder, name);
+        if (!fs::exists(file)) {
+            throw Error(file, "does not exist", "a photograph, as filenames.txt lists it");
         }
-        contents.capture.photographs.push_back(photographOf(folder / name));
+        contents.capture.photographs.push_back(photographOf(file));
     }
-    if (fs::exists(folder / kDirectionsFile)) {
-        assignLights(contents, loadDiligentLights(folder), folder / kDirectionsFile);
+    if (const fs::path directions = findFile(folder, kDirectionsFile); fs::exists(directions)) {
+        assignLights(contents, loadDiligentLights(folder), directions);
     }
     for (const fs::path& file : picturesIn(folder)) {
         if (lowerCase(file.stem().string()) == "mask") {
@@ -267,6 +283,7 @@ LayoutContents readLp(const fs::path& lp, const fs::path& folder, const PictureP
     }
     contents.capture.lights = lights.lights;
     contents.capture.lightPlaces = lights.vectors;
+    contents.capture.irradianceGiven = lights.irradianceGiven;
     contents.capture.lightsSource = lights.lights.empty() ? "" : lp.string();
     std::copy_if(pool[0].begin(), pool[0].end(), std::back_inserter(contents.masks),
                  [&](const fs::path& file) { return isNamedMask(file) && !listed.contains(file); });
@@ -301,6 +318,10 @@ std::optional<LayoutContents> readLpAbove(const fs::path& folder)
 
 std::optional<LayoutContents> readRtiLayout(const fs::path& folder, const fs::path& rig)
 {
+    if (fs::is_regular_file(folder)) {
+        const fs::path beside = folder.has_parent_path() ? folder.parent_path() : fs::path(".");
+        return readLp(folder, beside, picturesBelow(beside));
+    }
     const std::vector<fs::path> files = lpFilesIn(folder);
     if (files.empty()) {
         return readLpAbove(folder);

@@ -20,15 +20,15 @@ struct LayoutContents {
 };
 
 // Each answers nothing where the folder has another layout, and throws Error where it has this one, but wrongly.
-std::optional<LayoutContents> readJsonLayout(const std::filesystem::path& folder);
+std::optional<LayoutContents> readJsonLayout(const std::filesystem::path& file);
 std::optional<LayoutContents> readDiligentLayout(const std::filesystem::path& folder);
 std::optional<LayoutContents> readUwLayout(const std::filesystem::path& folder);
-// `rig` chooses among several .lp files.
+// `folder` may be its .lp; `rig` chooses among several.
 std::optional<LayoutContents> readRtiLayout(const std::filesystem::path& folder, const std::filesystem::path& rig);
 
 // A folder of a sphere's photographs with its mask: UW names, or pictures of any names in natural order.
 std::optional<LayoutContents> readPlainFolder(const std::filesystem::path& folder);
-SpherePhotographs readSphereFolder(const std::filesystem::path& folder);
+SpherePhotographs readSphereFolder(const std::filesystem::path& folder, const std::optional<Circle>& outline = {});
 
 // A photograph of one file and unknown exposure.
 Photograph photographOf(const std::filesystem::path& file);
@@ -56,9 +56,9 @@ void placeLights(LayoutContents& contents, const CaptureOptions& options);
 
 // in-picture:X,Y,W,H[,MASK], a sphere in the object's own photographs, or a folder of photographs and a mask. A
 // sphere's mask beside the photographs is not the object's. Throws Error (usage) by the sphere's `name` where it is
-// neither.
+// neither. Its outline may be given.
 SpherePhotographs namedSphere(const std::string& name, const std::filesystem::path& specification,
-                              LayoutContents& contents);
+                              LayoutContents& contents, const std::optional<Circle>& outline = {});
 
 // A further mirror sphere in pictures that show one. Throws Error (usage) where either is not in the picture.
 void addMirrorSphere(const std::filesystem::path& specification, LayoutContents& contents);

@@ -271,14 +271,17 @@ void addMirrorSphere(const fs::path& specification, LayoutContents& contents)
     first->source += " and at " + rectangleOf(*sphere);
 }
 
-SpherePhotographs namedSphere(const std::string& name, const fs::path& specification, LayoutContents& contents)
+SpherePhotographs namedSphere(const std::string& name, const fs::path& specification, LayoutContents& contents,
+                              const std::optional<Circle>& outline)
 {
     const std::optional<SphereInPicture> sphere = sphereInPicture(name, specification);
     if (!sphere) {
-        return readSphereFolder(specification);
+        return readSphereFolder(specification, outline);
     }
     dropMask(*sphere, contents);
-    return photographsOfSphere(*sphere, contents.capture);
+    SpherePhotographs photographs = photographsOfSphere(*sphere, contents.capture);
+    photographs.circle = outline;
+    return photographs;
 }
 
 } // namespace nacre

@@ -52,18 +52,20 @@ std::vector<uint8_t> alphaMask(const std::filesystem::path& file, int channels)
 
 } // namespace
 
-std::vector<uint8_t> loadMask(const fs::path& file, int width, int height)
+MaskPicture loadMask(const fs::path& file, int width, int height)
 {
     // Masks hold shape, not light: no curve. By rows, since a mask is as large as its photographs.
     ImageRows rows(file, TransferCurve::linear);
     const ImageHeader& header = rows.header();
     if (width != 0 && (header.width != width || header.height != height)) {
-        throw Error(file, fmt::format("is {} x {}", header.width, header.height),
+        const bool isTurned = header.width == height && header.height == width;
+        throw Error(file,
+                    fmt::format("is {} x {}{}", header.width, header.height, isTurned ? ", turned on its side" : ""),
                     fmt::format("{} x {} as the photographs", width, height));
     }
     std::vector<uint8_t> mask = alphaMask(file, header.channels);
     if (!mask.empty()) {
-        return mask;
+        return {std::move(mask), true};
     }
     const int channels = rows.channels();
     mask.reserve(static_cast<size_t>(header.width) * header.height);
@@ -79,7 +81,7 @@ std::vector<uint8_t> loadMask(const fs::path& file, int width, int height)
     if (std::find(mask.begin(), mask.end(), uint8_t{1}) == mask.end()) {
         throw Error(file, "is an empty mask", "the object brighter than one half");
     }
-    return mask;
+    return {std::move(mask), false};
 }
 
 void fitWindow(Capture& capture, int fileWidth, int fileHeight, const std::filesystem::path& listing)

@@ -8,9 +8,14 @@
 
 namespace nacre {
 
-// A mask picture: inside where the brightest channel is above one half. Throws Error where it is empty or its size
-// differs from width x height (0: any).
-std::vector<uint8_t> loadMask(const std::filesystem::path& file, int width, int height);
+struct MaskPicture {
+    std::vector<uint8_t> inside; // 1 on the object
+    bool isAlpha = false;        // told by the alpha channel, not by colours
+};
+
+// Inside is where alpha, if it varies, else the brightest channel is above one half. Throws Error where nothing is or
+// the size differs from width x height (0: any).
+MaskPicture loadMask(const std::filesystem::path& file, int width, int height);
 
 // What of the files' pixels a capture takes in, once the files' size is known: sets width and height. Throws Error,
 // naming `listing`, where the window is not inside.

@@ -50,6 +50,22 @@ void requireOneSize(std::span<const ReadHeader> headers)
     }
 }
 
+// The camera stood still, whatever its sensor of gravity said: pixels of one place have to stay in one place. Files of
+// another format may have been turned upright.
+void requireOneOrientation(std::span<const ReadHeader> headers)
+{
+    for (const auto& [exposure, header] : headers) {
+        const auto first = std::find_if(headers.begin(), headers.end(),
+                                        [&](const ReadHeader& other) { return other.header.format == header.format; });
+        if (header.orientation != first->header.orientation) {
+            throw Error(exposure->file,
+                        fmt::format("is turned by its EXIF orientation {}, {} by {}", header.orientation,
+                                    first->exposure->file.filename().string(), first->header.orientation),
+                        "one orientation in all files, as of one still camera (exiftool -n -Orientation=1 FILES)");
+        }
+    }
+}
+
 std::string describeCurve(const ImageHeader& header)
 {
     if (!header.curveIsDeclared) {
@@ -136,6 +152,7 @@ void examineHeaders(LayoutContents& contents, const std::optional<TransferCurve>
             all.push_back({&exposure, readImageHeader(exposure.file)});
         }
     }
+    requireOneOrientation(all);
     requireOneSize(all);
     capture.viewByExif = viewByExif(all);
     fitWindow(capture, all[0].header.width, all[0].header.height, contents.listing);
@@ -146,6 +163,7 @@ void examineHeaders(LayoutContents& contents, const std::optional<TransferCurve>
             all.insert(all.end(), headers.begin(), headers.end());
         }
     }
+    requireOneOrientation(all);
     if (chosen) {
         capture.curve = *chosen;
         capture.curveSource = "chosen";

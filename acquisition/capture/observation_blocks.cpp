@@ -28,6 +28,9 @@ const Observations* ObservationBlocks::next()
     if (!lights_.empty()) {
         block_ = selectLights(block_, lights_);
     }
+    if (end_) {
+        nacre::clipAt(*end_, block_);
+    }
     if (block_.pixels.size() < capture_->maskPixels) {
         return &block_;
     }
@@ -45,6 +48,14 @@ void ObservationBlocks::keepLights(const std::vector<size_t>& lights)
     lights_ = lights;
     for (Observations& block : held_) {
         block = selectLights(block, lights_);
+    }
+}
+
+void ObservationBlocks::clipAt(const glm::vec3& end)
+{
+    end_ = end;
+    for (Observations& block : held_) {
+        nacre::clipAt(end, block);
     }
 }
 

@@ -21,6 +21,9 @@ public:
     // From now on the capture's blocks hold these of its lights alone.
     void keepLights(const std::vector<size_t>& lights);
 
+    // From now on what reaches it is clipped, by channel.
+    void clipAt(const glm::vec3& end);
+
     // The capture, where there is one.
     const Capture& capture() const { return *capture_; }
 
@@ -29,6 +32,7 @@ private:
     int threads_ = 0;
     size_t byteBudget_ = 0;
     std::vector<size_t> lights_; // empty: all
+    std::optional<glm::vec3> end_;
     std::optional<ObservationReader> reader_;
     Observations block_;             // the one last read
     std::vector<Observations> held_; // empty: to be read

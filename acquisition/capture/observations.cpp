@@ -10,6 +10,7 @@
 #include <thread>
 
 #include <fmt/format.h>
+#include <glm/vector_relational.hpp>
 
 #include "acquisition/capture/photograph_files.h"
 #include "engine/files/error.h"
@@ -297,6 +298,13 @@ Observations selectLights(const Observations& block, const std::vector<size_t>& 
         }
     }
     return selected;
+}
+
+void clipAt(const glm::vec3& end, Observations& block)
+{
+    for (size_t k = 0; k < block.radiance.size(); ++k) {
+        block.saturated[k] |= glm::any(glm::greaterThanEqual(block.radiance[k], end)) ? 1 : 0;
+    }
 }
 
 namespace {

@@ -34,6 +34,9 @@ struct Observations {
 // What the lights that are named show, leaving others out.
 Observations selectLights(const Observations& block, const std::vector<size_t>& lights);
 
+// Marks what reaches the end, by channel, as clipped.
+void clipAt(const glm::vec3& end, Observations& block);
+
 // Walks a capture in bands of rows, all photographs side by side, so that memory is bounded by the block and not by
 // the capture. A capture that fits into the budget is one block.
 class ObservationReader {

@@ -1,10 +1,14 @@
 #include "acquisition/chain/capture_preparation.h"
 
+#include <algorithm>
 #include <utility>
+
+#include <fmt/format.h>
 
 #include "acquisition/chain/near_surface.h"
 #include "acquisition/chain/self_lit_choice.h"
 #include "acquisition/checks/lambertian_misfit.h"
+#include "acquisition/checks/plain_values.h"
 
 namespace nacre {
 
@@ -36,6 +40,21 @@ CaptureSample captureSampleOf(ObservationBlocks& blocks, const std::vector<Light
         sample.photographs.push_back(photograph.name);
     }
     return sample;
+}
+
+// Values that end below full scale are clipped there.
+std::vector<Finding> clipAtEnd(ObservationBlocks& blocks, Observations& sample)
+{
+    const std::optional<glm::vec3> end = endOfValues(sample);
+    if (!end) {
+        return {};
+    }
+    clipAt(*end, sample);
+    blocks.clipAt(*end);
+    const float lowest = std::min({end->x, end->y, end->z});
+    return {{FindingCode::valuesEnd, fmt::format("values end at {:.4g} of full scale, where many are: taken as clipped "
+                                                 "there",
+                                                 lowest)}};
 }
 
 // Takes what was left out away, and the corrected irradiances over.
@@ -81,10 +100,17 @@ std::pair<PreparedCapture, Observations> reconcileCapture(const Capture& capture
     CaptureSample sample = captureSampleOf(prepared.blocks, prepared.rig.lights);
     progress("choosing", 0);
     clock.enter("choosing");
+    std::vector<Finding> findings = clipAtEnd(prepared.blocks, sample.seen);
+    append(findings, alikeWarnings(sample.seen, prepared.rig.lights));
+    if (!capture.maskSource.empty()) {
+        append(findings, maskWarnings(sample.seen));
+    }
     prepared.nearField = nearFieldOf(capture, given, prepared.rig.lights);
     Observations seen = sample.seen;
     sample.seen = asIfDistant(std::move(sample.seen), prepared.localLights(), {}, options.normals.threads);
     prepared.reconciled = reconcilePhotographs(std::move(sample), options);
+    append(findings, prepared.reconciled.findings);
+    prepared.reconciled.findings = std::move(findings);
     keepReconciled(prepared);
     if (prepared.rig.lights.size() != seen.lightCount) {
         seen = selectLights(seen, prepared.reconciled.agreeing);

@@ -54,7 +54,7 @@ void nameAssumedCurve(const Capture& capture, std::vector<Finding>& findings)
                                         FindingCode::spheresDisagree,
                                         FindingCode::directionsContradicted,
                                         FindingCode::lightsTurned,
-                                        FindingCode::yFlipped,
+                                        FindingCode::axesMixed,
                                         FindingCode::normalsUnstable,
                                         FindingCode::notLambertian,
                                         FindingCode::methodsDisagree,

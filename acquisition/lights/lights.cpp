@@ -81,14 +81,14 @@ constexpr size_t kFewestForOutliers = 7;
 
 Circle outlineOf(const SpherePhotographs& sphere, const Capture& capture)
 {
-    if (sphere.inPicture) {
-        return circleInPicture(*sphere.inPicture, capture);
-    }
     if (sphere.circle) {
         return *sphere.circle;
     }
+    if (sphere.inPicture) {
+        return circleInPicture(*sphere.inPicture, capture);
+    }
     const ImageHeader header = readImageHeader(sphere.maskFile);
-    const std::vector<uint8_t> mask = loadMask(sphere.maskFile, header.width, header.height);
+    const std::vector<uint8_t> mask = loadMask(sphere.maskFile, header.width, header.height).inside;
     return fitCircle(mask, header.width, header.height, sphere.maskFile);
 }
 

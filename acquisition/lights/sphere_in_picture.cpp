@@ -296,14 +296,14 @@ std::vector<uint8_t> loadSphereMask(const SphereInPicture& sphere, const FileWin
 {
     const ImageHeader header = readImageHeader(sphere.mask);
     if (header.width == sphere.width && header.height == sphere.height) {
-        return loadMask(sphere.mask, sphere.width, sphere.height);
+        return loadMask(sphere.mask, sphere.width, sphere.height).inside;
     }
     if (header.width != files.fileWidth || header.height != files.fileHeight) {
         throw Error(sphere.mask, fmt::format("is {} x {}", header.width, header.height),
                     fmt::format("{} x {} as the photographs, or {} x {} as the sphere's crop", files.fileWidth,
                                 files.fileHeight, sphere.width, sphere.height));
     }
-    const std::vector<uint8_t> whole = loadMask(sphere.mask, header.width, header.height);
+    const std::vector<uint8_t> whole = loadMask(sphere.mask, header.width, header.height).inside;
     std::vector<uint8_t> crop;
     for (int y = 0; y < sphere.height; ++y) {
         const auto row = whole.begin() + static_cast<std::ptrdiff_t>(sphere.y + y) * header.width + sphere.x;
@@ -326,7 +326,7 @@ Circle circleInPicture(const SphereInPicture& sphere, const Capture& capture)
     if (!circle) {
         throw Error(capture.photographs[0].exposures[0].file,
                     fmt::format("shows no outline of a sphere at {}", rectangleOf(sphere)),
-                    "X,Y,W,H around one sphere and little else, or its mask after the numbers");
+                    "X,Y,W,H around one sphere and little else, its mask after the numbers, or --circle");
     }
     return {circle->x + sphere.x, circle->y + sphere.y, circle->radius};
 }

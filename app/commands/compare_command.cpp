@@ -70,7 +70,7 @@ Comparison compare(const CompareArguments& arguments)
     }
     const std::vector<uint8_t> mask = arguments.mask.empty()
                                           ? std::vector<uint8_t>(reference.pixelCount(), 1)
-                                          : loadMask(arguments.mask, reference.width, reference.height);
+                                          : loadMask(arguments.mask, reference.width, reference.height).inside;
     Comparison found;
     found.peak = arguments.peak > 0 ? arguments.peak : peakOf(reference, mask);
     if (std::none_of(reference.values.begin(), reference.values.end(), [](float v) { return v > 0; })) {

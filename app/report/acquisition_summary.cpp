@@ -138,9 +138,10 @@ std::string describe(const Capture& capture)
     if (capture.ambient) {
         text += fmt::format("\nambient      {} subtracted; noise may leave values below 0", capture.ambient->name);
     }
-    return text + fmt::format("\nmask         {} pixels ({:.1f} %)\ncurve        {} ({})\n", capture.maskPixels,
+    return text + fmt::format("\nmask         {} pixels ({:.1f} %){}\ncurve        {} ({})\n", capture.maskPixels,
                               100.0 * static_cast<double>(capture.maskPixels) / (1.0 * capture.width * capture.height),
-                              capture.curve.name, capture.curveSource);
+                              capture.maskSource.empty() ? "" : ", " + capture.maskSource, capture.curve.name,
+                              capture.curveSource);
 }
 
 std::string describe(const Capture& capture, const Rig& rig)

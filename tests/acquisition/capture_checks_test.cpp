@@ -72,6 +72,27 @@ TEST_F(CaptureChecks, HeadersAloneAreRead)
     EXPECT_EQ(load().width, 300);
 }
 
+// The camera stood still.
+TEST_F(CaptureChecks, OneOrientation)
+{
+    const auto turn = [&](int number) {
+        saveImage(folder_ / ("cat." + std::to_string(number) + ".png"), testPicture(number), PixelType::uint16,
+                  {{"Orientation", "3"}});
+    };
+    turn(2);
+    expectRefused({"cat.2.png", "EXIF orientation 3", "cat.0.png by 1", "one orientation in all files"});
+    for (const int number : {0, 1, 3}) {
+        turn(number);
+    }
+    EXPECT_EQ(load().photographs.size(), 4u);
+}
+
+TEST_F(CaptureChecks, AMaskOnItsSideIsToldSo)
+{
+    writeMask(folder_ / "cat.mask.tga", 2, kTestHeight, kTestWidth);
+    expectRefused({"cat.mask.tga", "turned on its side"});
+}
+
 TEST_F(CaptureChecks, PhotographOfAnotherSize)
 {
     writePicture(folder_ / "cat.2.png", testPicture(2, 9, 6));
@@ -96,7 +117,7 @@ TEST_F(CaptureChecks, MaskIsTheBrightestChannelAboveOneHalf)
         mask.setRgb(x, 0, {0, greens[x], 0});
     }
     writePicture(folder_ / "mask.tif", mask);
-    EXPECT_EQ(loadMask(folder_ / "mask.tif", 0, 0), (std::vector<uint8_t>{0, 1, 0}));
+    EXPECT_EQ(loadMask(folder_ / "mask.tif", 0, 0).inside, (std::vector<uint8_t>{0, 1, 0}));
 }
 
 TEST_F(CaptureChecks, MaskOptionComesBeforeTheFolders)

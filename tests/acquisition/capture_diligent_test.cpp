@@ -50,6 +50,16 @@ TEST_F(CaptureDiligent, PhotographsComeInTheOrderListed)
     EXPECT_EQ(capture.photographs[2].name, "001.png");
 }
 
+TEST_F(CaptureDiligent, NamesMayDifferInCase)
+{
+    std::filesystem::rename(folder_ / "filenames.txt", folder_ / "Filenames.TXT");
+    std::filesystem::rename(folder_ / "light_directions.txt", folder_ / "Light_Directions.txt");
+    std::filesystem::rename(folder_ / "002.png", folder_ / "002.PNG");
+    const Capture capture = load();
+    EXPECT_EQ(capture.photographs[1].name, "002.PNG");
+    EXPECT_EQ(capture.lights.size(), 11u);
+}
+
 TEST_F(CaptureDiligent, TruthIsTheUnroundedOne)
 {
     writePicture(folder_ / "Normal_gt.png", 1);

@@ -40,6 +40,28 @@ TEST_F(CaptureRti, StaleFoldersAndSpacesInNames)
     EXPECT_EQ(capture.maskPixels, size_t{kTestWidth} * kTestHeight);
 }
 
+TEST_F(CaptureRti, AListIsACaptureByItself)
+{
+    writeText(folder_ / "b.lp", "3\nphoto 3.png 1 0 0\nphoto 2.png 0 1 0\nphoto 1.png 0 0 1\n");
+    const Capture capture = loadCapture(folder_ / "b.lp");
+    EXPECT_EQ(capture.photographs[0].name, "photo 3.png");
+    EXPECT_EQ(capture.name, folder_.path().filename());
+    expectError([&] { loadCapture(folder_ / "photo 1.png"); }, {"photo 1.png: is no folder", ".lp"});
+}
+
+TEST_F(CaptureRti, AFourthNumberIsAnIrradiance)
+{
+    writeText(folder_ / "lights.lp", "photo 3.png 1 0 0 2\nphoto 2.png 0 1 0 0.5\nphoto 1.png 0 0 1 1\n");
+    const Capture capture = load();
+    EXPECT_TRUE(capture.irradianceGiven);
+    EXPECT_EQ(capture.lights[0].direction, glm::vec3(1, 0, 0));
+    EXPECT_EQ(capture.lights[1].irradiance, glm::vec3(0.5f));
+    writeText(folder_ / "lights.lp", "photo 3.png 1 0 0 2\nphoto 2.png 0 1 0\nphoto 1.png 0 0 1 1\n");
+    expectRefused({"lights.lp", "fourth number of photo 2.png is missing", "for all photographs or for none"});
+    writeText(folder_ / "lights.lp", "photo 3.png 1 0 0 0\nphoto 2.png 0 1 0 1\nphoto 1.png 0 0 1 1\n");
+    expectRefused({"lights.lp", "fourth number of photo 3.png is 0", "above 0"});
+}
+
 TEST_F(CaptureRti, LightsFollowNamesAndNotTheOrderOfFiles)
 {
     writeText(folder_ / "lights.lp", "3\nphoto 10.png 1 0 0\n/old/photo 2.png 0 1 0\nphoto 9.png 0 0 1\n");

@@ -1,5 +1,6 @@
 #include "acquisition/checks/height_consistency.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <glm/geometric.hpp>
@@ -46,17 +47,34 @@ TEST(HeightConsistency, NormalsOfAHeightAreLeftInPeace)
 {
     const HeightConsistency found = heightConsistencyOf(hills());
     EXPECT_GT(found.places, 1000u);
-    EXPECT_LT(found.flippedRatio, 0.3);
+    EXPECT_LT(*std::max_element(found.axesRatios.begin(), found.axesRatios.end()), 0.3);
     // Differences over two pixels of hills 57 pixels long are off by half a percent.
     EXPECT_LT(glm::length(found.turnDegrees), 1);
     EXPECT_TRUE(heightWarnings(hills()).empty());
 }
 
-TEST(HeightConsistency, YUpsideDownIsSaid)
+// The normals of a ball whose lights were given by each of the eight symmetries of the picture's axes.
+TEST(HeightConsistency, MixedUpAxesOfTheLightsAreNamed)
 {
-    const NormalMap map = changed(hills(), glm::mat3(1, 0, 0, 0, -1, 0, 0, 0, 1));
-    ASSERT_EQ(heightWarnings(map).size(), 1u);
-    EXPECT_EQ(heightWarnings(map).front().code, FindingCode::yFlipped);
+    const struct {
+        glm::mat2 axes;
+        const char* text;
+    } cases[] = {{{1, 0, 0, -1}, "y reversed"},
+                 {{-1, 0, 0, 1}, "x reversed"},
+                 {{0, 1, 1, 0}, "x and y exchanged;"},
+                 {{0, -1, -1, 0}, "x and y exchanged and reversed"},
+                 {{0, 1, -1, 0}, "a quarter counter-clockwise"},
+                 {{0, -1, 1, 0}, "a quarter clockwise"}};
+    for (const auto& c : cases) {
+        const std::vector<Finding> found = heightWarnings(changed(sphereNormalMap(kSize), glm::mat3(c.axes)));
+        ASSERT_EQ(found.size(), 1u) << c.text;
+        EXPECT_EQ(found[0].code, FindingCode::axesMixed);
+        EXPECT_NE(found[0].text.find(c.text), std::string::npos) << found[0].text;
+    }
+    EXPECT_TRUE(heightWarnings(sphereNormalMap(kSize)).empty());
+    const std::vector<Finding> hollow = heightWarnings(changed(sphereNormalMap(kSize), glm::mat3(glm::mat2(-1))));
+    ASSERT_EQ(hollow.size(), 1u);
+    EXPECT_EQ(hollow[0].code, FindingCode::hollow);
 }
 
 TEST(HeightConsistency, ATurnOfAllNormalsIsFoundAndSaid)
