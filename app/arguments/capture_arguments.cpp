@@ -20,6 +20,8 @@ constexpr const char* kLights = "Lights";
 constexpr const char* kNormals = "Normals";
 constexpr const char* kRunning = "Running";
 
+constexpr int kLargestShrink = 4; // as capture.json's scale
+
 // One value for all channels, or three.
 glm::vec3 reflectanceOf(const std::vector<float>& values)
 {
@@ -75,6 +77,33 @@ void requireView(const std::optional<double>& degrees)
         throw Error("", fmt::format("--field-of-view {:g} is not possible", *degrees),
                     fmt::format("degrees above 0, {:g} at most", kWidestView), Error::kUsage);
     }
+}
+
+// X,Y,R in pixels; empty where none is asked for.
+std::optional<Circle> circleOf(const std::vector<double>& values)
+{
+    if (!values.empty() && (values.size() != 3 || !(values[2] > 0))) {
+        throw Error("", "--circle is not understood", "X,Y,R in pixels, R above 0", Error::kUsage);
+    }
+    return values.empty() ? std::nullopt : std::optional(Circle{values[0], values[1], values[2]});
+}
+
+FileWindow windowOf(const std::vector<int>& crop, int shrink)
+{
+    const bool isWindow = crop.size() == 4 && crop[0] >= 0 && crop[1] >= 0 && crop[2] > 0 && crop[3] > 0;
+    if (!crop.empty() && !isWindow) {
+        throw Error("", "--crop is not understood", "X,Y,W,H in whole pixels, at least 1 x 1", Error::kUsage);
+    }
+    if (shrink < 1 || shrink > kLargestShrink) {
+        throw Error("", fmt::format("--shrink {} is not possible", shrink), fmt::format("1 to {}", kLargestShrink),
+                    Error::kUsage);
+    }
+    FileWindow window;
+    if (isWindow) {
+        window = {crop[0], crop[1], crop[2], crop[3]};
+    }
+    window.box = shrink;
+    return window;
 }
 
 LightChoice lightChoiceOf(const std::optional<int>& given)
@@ -153,6 +182,20 @@ void CalibrationArguments::addTo(CLI::App& command)
                     "capture.json, else none)")
         ->option_text("VALUE|auto|none")
         ->group(kPhotographs);
+    command.add_option("--ambient", capture.ambient, "Photograph without the lights, subtracted from all others")
+        ->option_text("FILE")
+        ->group(kPhotographs);
+    command.add_option("--crop", crop, "Part of the photographs to read, in pixels")
+        ->delimiter(',')
+        ->option_text("X,Y,W,H")
+        ->group(kPhotographs);
+    command.add_option("--shrink", shrink, "Boxes of so many pixels squared become one, 1 to 4")
+        ->option_text("N [1]")
+        ->group(kPhotographs);
+    command.add_option("--circle", circle, "Outline of the mirror sphere, in place of its mask, in pixels")
+        ->delimiter(',')
+        ->option_text("X,Y,R")
+        ->group(kLights);
     command.add_option("--skip", capture.skip, "Photographs to leave out")
         ->delimiter(',')
         ->option_text("NAME[,NAME]")
@@ -229,6 +272,8 @@ Capture CalibrationArguments::load()
             "one of them: a width in the unit of the lights' places, or their distance in widths", Error::kUsage);
     }
     requireView(capture.fieldOfView);
+    capture.circle = circleOf(circle);
+    capture.window = windowOf(crop, shrink);
     if (!mirrorSpheres.empty()) {
         capture.mirrorSphere = mirrorSpheres.front();
         capture.moreMirrorSpheres = {mirrorSpheres.begin() + 1, mirrorSpheres.end()};

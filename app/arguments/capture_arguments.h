@@ -21,6 +21,9 @@ struct CalibrationArguments {
     std::string transfer;
     std::string offset;
     std::string lightDistance;
+    std::vector<double> circle;
+    std::vector<int> crop;
+    int shrink = 1;
     std::vector<float> sphereReflectance;
     std::filesystem::path compareRig;
     int threads = 0;

@@ -1,17 +1,14 @@
 #include <algorithm>
-#include <array>
 #include <memory>
 
 #include <fmt/format.h>
 
-#include "acquisition/capture/capture.h"
-#include "acquisition/capture/picture_files.h"
+#include "acquisition/capture/observations.h"
 #include "app/commands/commands.h"
 #include "app/report/acquisition_summary.h"
+#include "app/report/file_info.h"
 #include "engine/files/error.h"
-#include "engine/files/text_files.h"
 #include "engine/gpu/device_info.h"
-#include "engine/rti/ptm_file.h"
 #include "engine/surface/surface.h"
 
 namespace nacre {
@@ -74,16 +71,6 @@ void printSurface(const std::filesystem::path& folder)
     }
 }
 
-void printPtm(const std::filesystem::path& file)
-{
-    const PtmFile ptm = loadPtm(file);
-    fmt::print("map          {}: {}, {}x{}\n", file.string(), ptmFormatName(ptm.format), ptm.width, ptm.height);
-    constexpr std::array<const char*, PtmFile::kTerms> kNames = {"x^2", "y^2", "xy", "x", "y", "1"};
-    for (size_t k = 0; k < PtmFile::kTerms; ++k) {
-        fmt::print("{:<12} (code - {}) * {:g}\n", kNames[k], ptm.bias[k], ptm.scale[k]);
-    }
-}
-
 std::string describeSphere(const std::optional<SpherePhotographs>& sphere)
 {
     return sphere ? fmt::format("{} photographs, {}", sphere->photographs.size(), sphere->source.string()) : "none";
@@ -92,6 +79,9 @@ std::string describeSphere(const std::optional<SpherePhotographs>& sphere)
 void printCapture(const std::filesystem::path& folder)
 {
     const Capture capture = loadCapture(folder);
+    ObservationReader reader(capture); // to the end, as a picture may be cut off
+    for (Observations block; reader.next(block);) {
+    }
     fmt::print("{}", describe(capture));
     if (capture.lights.empty()) {
         fmt::print("lights       not given, to be calibrated\n");
@@ -106,14 +96,21 @@ void printCapture(const std::filesystem::path& folder)
     }
 }
 
+// Or the folder of a surface.
+bool isCapture(const std::filesystem::path& path)
+{
+    return std::filesystem::is_directory(path) ? !std::filesystem::exists(path / "info.json")
+                                               : path.filename() == "capture.json";
+}
+
 void runInfo(const std::filesystem::path& path)
 {
     if (path.empty()) {
         printDevices();
     } else if (!std::filesystem::exists(path)) {
-        throw Error(path, "does not exist", "a folder NAME.nacre or a folder of photographs");
-    } else if (lowerCase(path.extension().string()) == ".ptm") {
-        printPtm(path);
+        throw Error(path, "does not exist", "a folder NAME.nacre, a folder of photographs or a file");
+    } else if (!isCapture(path)) {
+        printFile(path);
     } else if (std::filesystem::exists(path / "surface.json")) {
         printSurface(path);
     } else {
@@ -126,9 +123,10 @@ void runInfo(const std::filesystem::path& path)
 void addInfoCommand(CLI::App& app)
 {
     auto path = std::make_shared<std::filesystem::path>();
-    CLI::App* command = app.add_subcommand("info", "Vulkan devices; contents of a surface, a capture or a .ptm");
-    command->add_option("PATH", *path,
-                        "Folder NAME.nacre, folder of photographs, or FILE.ptm (default: Vulkan devices)");
+    CLI::App* command = app.add_subcommand("info", "Vulkan devices; contents of a surface, a capture or a file");
+    command->add_option(
+        "PATH", *path,
+        "Folder NAME.nacre, folder of photographs, or a file that Nacre reads or writes (default: Vulkan devices)");
     command->footer("Example:\n  nacre info\n  nacre info horse.nacre");
     command->callback([path] { runInfo(*path); });
 }
