@@ -1,0 +1,220 @@
+// Every reader, given its own small files after seeded damage: it reads them, or says in one line which file is wrong.
+#include <cstring>
+#include <functional>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "acquisition/capture/capture.h"
+#include "acquisition/capture/capture_maps.h"
+#include "engine/brdf/rgl_brdf.h"
+#include "engine/files/error.h"
+#include "engine/files/whole_file.h"
+#include "engine/lights/environment.h"
+#include "engine/lights/light_files.h"
+#include "engine/materials/merl_file.h"
+#include "engine/rti/ptm_file.h"
+#include "engine/scene/scene_description.h"
+#include "engine/surface/surface.h"
+#include "tests/support/temp_folder.h"
+#include "tests/support/tensor_file.h"
+#include "tests/support/write_capture.h"
+
+namespace nacre {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kInputs = 500;
+
+using Random = std::mt19937;
+
+struct FuzzedReader {
+    fs::path file; // below the test's folder, as it is damaged
+    fs::path read; // what is read: the file, or the folder that it lies in
+    std::function<void(const fs::path&)> reader;
+};
+
+template <class Value> void appendTo(std::string& bytes, const Value& value)
+{
+    bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
+}
+
+// MATLAB 5.0 MAT-File Format, 2019, 1-5: one array of doubles, 2 x 2 x 3.
+std::string matFile()
+{
+    std::string bytes = "MATLAB 5.0 MAT-file";
+    bytes.resize(124, ' ');
+    bytes += std::string("\0\1IM", 4);
+    std::string array;
+    for (const uint32_t word : {6u, 8u, 6u, 0u, 5u, 12u, 2u, 2u, 3u, 0u, 1u, 1u, uint32_t{'n'}, 0u, 9u, 96u}) {
+        appendTo(array, word);
+    }
+    for (int i = 0; i < 12; ++i) {
+        appendTo(array, i < 8 ? 0.0 : 1.0);
+    }
+    appendTo(bytes, uint32_t{14});
+    appendTo(bytes, static_cast<uint32_t>(array.size()));
+    return bytes + array;
+}
+
+std::string ptmBytes()
+{
+    return "PTM_1.2\nPTM_FORMAT_LRGB\n2\n2\n1 1 1 1 1 1\n0 0 0 0 0 128\n" + std::string(4 * 9, '\x40');
+}
+
+std::string merlStart()
+{
+    std::string bytes;
+    for (const int32_t side : {90, 90, 180}) {
+        appendTo(bytes, side);
+    }
+    return bytes + std::string(1000, '\0');
+}
+
+// Writes the whole files.
+std::vector<FuzzedReader> writeReaders(const TempFolder& folder)
+{
+    std::vector<FuzzedReader> readers;
+    const auto add = [&](const fs::path& file, const std::function<void(const fs::path&)>& reader) {
+        readers.push_back({folder / file, folder / file, reader});
+    };
+    const auto picture = [](const fs::path& file) { loadPhotograph(file, TransferCurve::srgb); };
+    for (const char* name : {"a.png", "a.jpg", "a.exr", "a.tif", "a.tga", "a.bmp", "a.hdr"}) {
+        const bool isFloat = std::strcmp(name, "a.exr") == 0 || std::strcmp(name, "a.hdr") == 0;
+        saveImage(folder / name, testPicture(1), isFloat ? PixelType::float32 : PixelType::uint8);
+        add(name, picture);
+    }
+    const auto addText = [&](const fs::path& file, const std::string& text, const auto& reader) {
+        writeText(folder / file, text);
+        add(file, reader);
+    };
+    addText("a.lp", "2\nphoto 1.png 0.1 0.2 0.9 1\nphoto 2.png 0 0 1 1\n", [](const fs::path& f) { loadLpList(f); });
+    addText("a.txt", directionLines(4), [](const fs::path& f) { loadLightFile(f); });
+    addText("i.txt", "1 2 3\n4 5 6\n", [](const fs::path& f) { loadIrradiances(f); });
+    addText(
+        "a.json",
+        R"({"format": "nacre lights", "version": 1, "lights": [{"direction": [0, 0, 1], "irradiance": [1, 2, 3]}]})",
+        [](const fs::path& f) { loadLightFile(f); });
+    addText("s.json", R"({"format": "nacre scene", "version": 1, "onto": "make:sphere", "light": ["captured:3"]})",
+            [](const fs::path& f) { sceneFromFile(f); });
+    addText("a.mat", matFile(), [](const fs::path& f) { loadTrueNormals(f); });
+    addText("a.ptm", ptmBytes(), [](const fs::path& f) { loadPtm(f); });
+    addText("a.bsdf", tensorFile(1, "rgb"), [](const fs::path& f) { RglBrdf{f}; });
+    addText("a.binary", merlStart(), [](const fs::path& f) { loadMerl(f, {4, 4, 4}); });
+    saveImage(folder / "env.exr", Image(8, 4, 3, 1.0f), PixelType::half);
+    add("env.exr", [](const fs::path& f) { loadEnvironment(f); });
+
+    Surface surface = transferredSurface(sphereNormalMap(16), {"m", BrdfTable({5, 4, 3}, {kHalfDifference, 0.4f}), {}});
+    saveSurface(folder / "s.nacre", surface, false);
+    for (const auto& entry : fs::recursive_directory_iterator(folder / "s.nacre")) {
+        if (entry.is_regular_file()) {
+            readers.push_back({entry.path(), folder / "s.nacre", [](const fs::path& f) { loadSurface(f); }});
+        }
+    }
+    writeDiligentFolder(folder / "d", 4);
+    writeText(folder / "j" / "capture.json", R"({"format": "nacre capture", "version": 1, "photographs":
+        ["../d/001.png", {"file": "../d/002.png"}, "../d/003.png"], "mask": "../d/mask.png", "crop": [0, 0, 4, 4]})");
+    for (const char* name :
+         {"d/filenames.txt", "d/light_directions.txt", "d/mask.png", "d/002.png", "j/capture.json"}) {
+        const fs::path file = folder / name;
+        readers.push_back({file, file.parent_path(), [](const fs::path& f) { loadCapture(f); }});
+    }
+    return readers;
+}
+
+size_t below(Random& random, size_t end)
+{
+    return end > 0 ? random() % end : 0;
+}
+
+std::string inUtf16(const std::string& text)
+{
+    std::string wide = "\xff\xfe";
+    for (const char c : text) {
+        wide += {c, '\0'};
+    }
+    return wide;
+}
+
+std::string withOtherNumber(std::string text, Random& random)
+{
+    constexpr const char* kNumbers[] = {"1e999", "-1", "99999999999999999999", "0", "nan", "4294967296", "2147483647"};
+    const size_t first = text.find_first_of("0123456789", below(random, text.size()));
+    if (first != std::string::npos) {
+        const size_t last = std::min(text.find_first_not_of("0123456789.", first), text.size());
+        text.replace(first, last - first, kNumbers[below(random, std::size(kNumbers))]);
+    }
+    return text;
+}
+
+std::string damaged(std::string bytes, const std::string& other, Random& random)
+{
+    const size_t a = below(random, bytes.size()), b = below(random, bytes.size()), from = std::min(a, b),
+                 length = std::max(a, b) - from;
+    switch (below(random, 9)) {
+    case 0:
+        return bytes.substr(0, a);
+    case 1:
+        for (int i = 0; i < 4 && !bytes.empty(); ++i) {
+            bytes[below(random, bytes.size())] = static_cast<char>(random());
+        }
+        return bytes;
+    case 2: // shuffled
+        return bytes.substr(length) + bytes.substr(0, length);
+    case 3:
+        return bytes.erase(from, length);
+    case 4:
+        return bytes.insert(from, bytes.substr(from, length));
+    case 5:
+        return withOtherNumber(bytes, random);
+    case 6: // of another type
+        return other;
+    case 7:
+        return random() % 2 ? inUtf16(bytes) : "\xef\xbb\xbf" + bytes + "\xe9";
+    default: // huge numbers
+        return bytes.replace(from, std::min<size_t>(4, bytes.size() - from),
+                             random() % 2 ? "\xff\xff\xff\x7f" : "\xff\xff\xff\xff");
+    }
+}
+
+// Empty where the reader took it or refused it well.
+std::string complaintOf(const FuzzedReader& reader)
+{
+    try {
+        reader.reader(reader.read);
+    } catch (const Error& error) {
+        const std::string message = error.what();
+        const bool namesIt = message.find(reader.read.filename().string()) != std::string::npos ||
+                             message.find(reader.file.filename().string()) != std::string::npos;
+        return message.find('\n') == std::string::npos && namesIt ? "" : "message: " + message;
+    } catch (const std::exception& exception) {
+        return std::string("exception: ") + exception.what();
+    }
+    return "";
+}
+
+TEST(ReaderFuzz, DamagedFilesAreReadOrNamed)
+{
+    const TempFolder folder;
+    const std::vector<FuzzedReader> readers = writeReaders(folder);
+    std::vector<std::string> whole;
+    for (const FuzzedReader& reader : readers) {
+        whole.push_back(readWholeFile(reader.file, ""));
+        if (reader.file.extension() != ".binary") { // 33 MB, were it whole
+            EXPECT_NO_THROW(reader.reader(reader.read)) << reader.file;
+        }
+    }
+    Random random(21);
+    for (int input = 0; input < kInputs; ++input) {
+        const size_t i = input % readers.size();
+        const std::string bytes = damaged(whole[i], whole[below(random, whole.size())], random);
+        writeText(readers[i].file, bytes);
+        const std::string complaint = complaintOf(readers[i]);
+        EXPECT_EQ(complaint, "") << "input " << input << ", " << readers[i].file.filename();
+        writeText(readers[i].file, whole[i]);
+    }
+}
+
+} // namespace
+} // namespace nacre
