@@ -87,6 +87,21 @@ TEST_F(CaptureChecks, OneOrientation)
     EXPECT_EQ(load().photographs.size(), 4u);
 }
 
+TEST_F(CaptureChecks, OutlineWindowAndAmbientMayBeOptions)
+{
+    writeUwFolder(folder_ / "chrome", "chrome", 4, ".png");
+    fs::remove(folder_ / "chrome" / "chrome.mask.tga");
+    options_.mirrorSphere = folder_ / "chrome";
+    expectRefused({"chrome", "0 masks of a sphere", "--circle"});
+    options_.circle = Circle{3, 3, 2};
+    options_.window = {2, 1, 4, 4, 2};
+    options_.ambient = folder_ / "chrome" / "chrome.0.png";
+    const Capture capture = load();
+    EXPECT_EQ(capture.mirrorSphere->circle->radius, 2);
+    EXPECT_EQ(capture.width, 2);
+    EXPECT_EQ(capture.ambient->name, "chrome.0.png");
+}
+
 TEST_F(CaptureChecks, AMaskOnItsSideIsToldSo)
 {
     writeMask(folder_ / "cat.mask.tga", 2, kTestHeight, kTestWidth);
