@@ -167,6 +167,8 @@ bool isWholeInFirst(const OIIO::ImageInput& input)
     return format == "psd" || format == "heif";
 }
 
+constexpr int64_t kMostPixels = int64_t{1} << 30; // more is damage
+
 // A file's one picture, open where it begins.
 struct OpenPicture {
     std::unique_ptr<OIIO::ImageInput> input;
@@ -199,6 +201,11 @@ OpenPicture openPicture(const fs::path& file)
     }
     if (!input->seek_subimage(static_cast<int>(chosen->part), 0)) {
         throwUnreadable(file, *input);
+    }
+    const PicturePart& part = parts[chosen->part];
+    if (int64_t{part.width} * part.height > kMostPixels) {
+        throw Error(file, fmt::format("says that it is {} x {}", part.width, part.height),
+                    fmt::format("{} pixels at most", kMostPixels));
     }
     return {std::move(input), chosen->channels};
 }

@@ -25,7 +25,7 @@ json parsed(const std::filesystem::path& file)
 {
     try {
         return json::parse(readTextFile(file));
-    } catch (const json::parse_error& error) {
+    } catch (const json::exception& error) {
         const std::string what = error.what(); // "[json.exception.parse_error.101] parse error at line 1, ..."
         const size_t start = what.find("] ");
         throw Error(file, "is not JSON: " + (start == std::string::npos ? what : what.substr(start + 2)), "valid JSON");

@@ -16,6 +16,7 @@
 #include "engine/rti/ptm_file.h"
 #include "engine/scene/scene_description.h"
 #include "engine/surface/surface.h"
+#include "tests/support/expect_error.h"
 #include "tests/support/temp_folder.h"
 #include "tests/support/tensor_file.h"
 #include "tests/support/write_capture.h"
@@ -214,6 +215,18 @@ TEST(ReaderFuzz, DamagedFilesAreReadOrNamed)
         EXPECT_EQ(complaint, "") << "input " << input << ", " << readers[i].file.filename();
         writeText(readers[i].file, whole[i]);
     }
+}
+
+// What other seeds found.
+TEST(ReaderFuzz, NumbersThatAreTooLargeAreNamed)
+{
+    const TempFolder folder;
+    writeText(folder / "a.json", R"({"format": "nacre lights", "version": 1e999, "lights": []})");
+    expectError([&] { loadLightFile(folder / "a.json"); }, {"a.json: is not JSON"});
+    std::string targa(18, '\0'); // header of an uncompressed picture in colour
+    targa[2] = 2, targa[12] = targa[14] = targa[13] = targa[15] = '\xff', targa[16] = 24;
+    writeText(folder / "a.tga", targa);
+    expectError([&] { loadPhotograph(folder / "a.tga", TransferCurve::linear); }, {"a.tga", "65535 x 65535"});
 }
 
 } // namespace
