@@ -6,9 +6,7 @@
 # name, its numbered siblings and its prefixes left out.
 set -euo pipefail
 nacre=$1 fits=$2 work=$3 family=${4:-merl-abc}
-metals="alum-bronze aluminium brass chrome-steel nickel black-oxidized-steel"
-others="gold-metallic-paint red-metallic-paint silver-paint pearl-paint aventurnine blue-rubber cherry-235 dark-red-paint delrin
-green-fabric pink-fabric specular-blue-phenolic teflon violet-acrylic"
+. "$(dirname "$0")/materials_of_fits.sh"
 mkdir -p "$work"
 
 # Names that are prefixes of the material, or have it as theirs, share its base word.

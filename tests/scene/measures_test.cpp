@@ -7,6 +7,7 @@
 
 #include "engine/files/hash_random.h"
 #include "engine/files/measures.h"
+#include "engine/surface/normal_map.h"
 
 namespace nacre {
 namespace {
