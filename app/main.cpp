@@ -11,7 +11,9 @@
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include "app/arguments/nearest_name.h"
 #include "app/commands/commands.h"
 #include "engine/files/error.h"
 #include "engine/files/unfinished.h"
@@ -30,12 +32,12 @@ std::vector<const CLI::Option*> shownOptions(const CLI::App& app)
     return app.get_options([](const CLI::Option* option) { return !option->get_group().empty(); });
 }
 
-std::string longNames(const CLI::App& app)
+std::vector<std::string> longNames(const CLI::App& app)
 {
-    std::string names;
+    std::vector<std::string> names;
     for (const CLI::Option* option : shownOptions(app)) {
         for (const std::string& name : option->get_lnames()) {
-            names += " --" + name;
+            names.push_back("--" + name);
         }
     }
     return names;
@@ -123,7 +125,7 @@ std::string bashCompletion(const CLI::App& app)
     std::string commands, cases;
     for (const CLI::App* command : commandsOf(app)) {
         commands += command->get_name() + " ";
-        cases += fmt::format("        {}) words=\"{}\" ;;\n", command->get_name(), longNames(*command).substr(1));
+        cases += fmt::format("        {}) words=\"{}\" ;;\n", command->get_name(), fmt::join(longNames(*command), " "));
     }
     return fmt::format(R"(# bash completion for nacre: commands, then long options; file names where neither fits
 _nacre() {{
@@ -141,7 +143,7 @@ _nacre() {{
 }}
 complete -o default -F _nacre nacre
 )",
-                       commands, longNames(app).substr(1), cases);
+                       commands, fmt::join(longNames(app), " "), cases);
 }
 
 std::string manPage(const CLI::App& app, const std::string& version)
@@ -173,14 +175,36 @@ void requirePrinted()
 
 constexpr int kInternalError = 70; // EX_SOFTWARE of sysexits.h
 
+// The page to read, after what may have been meant.
+std::string adviceFor(const std::string& typed, const std::vector<std::string>& names, const std::string& page)
+{
+    const std::string nearest = nearestName(typed.substr(0, typed.find('=')), names);
+    return nearest.empty() ? "see " + page : fmt::format("did you mean {}? See {}", nearest, page);
+}
+
 // CLI11's message as one line of the program's own form, with the command whose help answers it.
 Error usageError(const CLI::App& app, const CLI::ParseError& e)
 {
     const auto commands = app.get_subcommands();
     if (commands.empty()) {
         const std::vector<std::string> unknown = app.remaining();
-        return {"", unknown.empty() ? "no command is given" : fmt::format("'{}' is no command", unknown.front()),
-                "see nacre --help", Error::kUsage};
+        if (unknown.empty()) {
+            return {"", "no command is given", "see nacre --help", Error::kUsage};
+        }
+        std::vector<std::string> names;
+        for (const CLI::App* command : commandsOf(app)) {
+            names.push_back(command->get_name());
+        }
+        return {"", fmt::format("'{}' is no command", unknown.front()),
+                adviceFor(unknown.front(), names, "nacre --help"), Error::kUsage};
+    }
+    const CLI::App& command = *commands.front();
+    const std::string page = fmt::format("nacre {} --help", command.get_name());
+    const std::vector<std::string> unknown = command.remaining();
+    if (!unknown.empty()) {
+        const char* what = unknown.front()[0] == '-' ? "is no option here" : "was not expected";
+        return {"", fmt::format("'{}' {}", unknown.front(), what), adviceFor(unknown.front(), longNames(command), page),
+                Error::kUsage};
     }
     std::string text = e.what();
     const std::string unconverted = "Could not convert: ";
@@ -189,7 +213,7 @@ Error usageError(const CLI::App& app, const CLI::ParseError& e)
     } else if (text.size() > 1 && std::islower(static_cast<unsigned char>(text[1]))) {
         text[0] = static_cast<char>(std::tolower(static_cast<unsigned char>(text[0])));
     }
-    return {"", text, fmt::format("see nacre {} --help", commands.front()->get_name()), Error::kUsage};
+    return {"", text, "see " + page, Error::kUsage};
 }
 
 // Not in --help: the build makes the files from them that an installation holds.

@@ -95,7 +95,8 @@ void readNumbers(const std::string& text, const std::string& rest, LightSource& 
 {
     const std::vector<float> n = numbersFromText(rest);
     if (n.size() != 3 && n.size() != 6) {
-        throw lightError(text, "is not understood", "x,y,z or x,y,z,r,g,b or captured:N");
+        throw lightError(text, "is not understood",
+                         "x,y,z or x,y,z,r,g,b or captured:N, near:WIDTHS: or soft:DEGREES: before it where wanted");
     }
     source.direction = {n[0], n[1], n[2]};
     if (source.direction == glm::vec3(0)) {
