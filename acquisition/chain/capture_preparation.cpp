@@ -102,9 +102,7 @@ std::pair<PreparedCapture, Observations> reconcileCapture(const Capture& capture
     clock.enter("choosing");
     std::vector<Finding> findings = clipAtEnd(prepared.blocks, sample.seen);
     append(findings, alikeWarnings(sample.seen, prepared.rig.lights));
-    if (!capture.maskSource.empty()) {
-        append(findings, maskWarnings(sample.seen));
-    }
+    append(findings, maskWarnings(sample.seen, !capture.maskSource.empty()));
     prepared.nearField = nearFieldOf(capture, given, prepared.rig.lights);
     Observations seen = sample.seen;
     sample.seen = asIfDistant(std::move(sample.seen), prepared.localLights(), {}, options.normals.threads);

@@ -18,8 +18,10 @@ constexpr float kLittleBelow = 31.0f / 32; // of the largest value
 constexpr size_t kFewestAtEnd = 20;
 constexpr size_t kFewestPhotographs = 3; // a flat patch may have one value in one
 
-constexpr double kBright = 0.9;      // quantile over the pixels of their brightest values
-constexpr float kDark = 1.0f / 512;  // of it: 8 bits do not show it beside it
+constexpr double kBright = 0.9;     // quantile over the pixels of their brightest values
+constexpr float kDark = 1.0f / 512; // of it: 8 bits do not show it beside it
+// Where no mask was drawn: a background may have noise and stray light.
+constexpr float kDarkUnmasked = 1.0f / 64;
 constexpr double kLargestDark = 0.1; // of the mask
 
 // Of one channel: infinite where it only has a largest value.
@@ -86,7 +88,7 @@ std::optional<glm::vec3> endOfValues(const Observations& sample)
     return std::isfinite(std::min({end.x, end.y, end.z})) ? std::optional(end) : std::nullopt;
 }
 
-std::vector<Finding> maskWarnings(const Observations& sample)
+std::vector<Finding> maskWarnings(const Observations& sample, bool isMasked)
 {
     std::vector<float> brightest;
     for (size_t p = 0; p < sample.pixels.size(); ++p) {
@@ -98,16 +100,21 @@ std::vector<Finding> maskWarnings(const Observations& sample)
     if (brightest.empty()) {
         return {};
     }
-    const float bright = quantile(brightest, kBright);
-    const auto dark = std::count_if(brightest.begin(), brightest.end(), [&](float v) { return v < kDark * bright; });
+    const float level = (isMasked ? kDark : kDarkUnmasked) * quantile(brightest, kBright);
+    const auto dark = std::count_if(brightest.begin(), brightest.end(), [&](float v) { return v < level; });
     const double share = static_cast<double>(dark) / static_cast<double>(brightest.size());
     if (share <= kLargestDark) {
         return {};
     }
+    const double percent = 100 * share;
     return {{FindingCode::maskDark,
-             fmt::format("{:.0f} % of the mask is dark under every light: the mask of something else, one that is "
-                         "turned, or black and white exchanged",
-                         100 * share)}};
+             isMasked
+                 ? fmt::format("{:.0f} % of the mask is dark under every light: the mask of something else, one "
+                               "that is turned, or black and white exchanged",
+                               percent)
+                 : fmt::format("there is no mask, and {:.0f} % of the picture, all of which is taken for the object, "
+                               "is dark under every light: draw one, white on the object, and name it by --mask",
+                               percent)}};
 }
 
 std::vector<Finding> alikeWarnings(const Observations& sample, const std::vector<Light>& lights)

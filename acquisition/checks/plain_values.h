@@ -15,8 +15,8 @@ namespace nacre {
 // a little below it, in several photographs. Infinite in channels that merely have a largest; none where all do.
 std::optional<glm::vec3> endOfValues(const Observations& sample);
 
-// A warning where much of a mask is dark under every light, which the object is not.
-std::vector<Finding> maskWarnings(const Observations& sample);
+// A warning where much of a mask is dark under every light, which the object is not; or much of a picture without one.
+std::vector<Finding> maskWarnings(const Observations& sample, bool isMasked);
 
 // A warning where pixels differ between photographs by far less than the directions of the lights make a surface do
 // that faces their middle, and which differs less than most.

@@ -64,9 +64,13 @@ TEST(PlainValues, AnEndBelowFullScaleIsFoundAndClippedAt)
 TEST(PlainValues, OfAMaskThatIsDarkUnderEveryLightIsTold)
 {
     Observations seen = observed(someLights());
-    EXPECT_TRUE(maskWarnings(seen).empty());
+    EXPECT_TRUE(maskWarnings(seen, true).empty());
+    EXPECT_TRUE(maskWarnings(seen, false).empty());
+    std::fill_n(seen.radiance.begin(), seen.radiance.size() / 5, glm::vec3(0.004f));
+    EXPECT_TRUE(maskWarnings(seen, true).empty()) << "a dark part of the object";
+    EXPECT_NE(maskWarnings(seen, false).at(0).text.find("--mask"), std::string::npos) << "a background";
     std::fill_n(seen.radiance.begin(), seen.radiance.size() / 5, glm::vec3(0.0004f));
-    const std::vector<Finding> found = maskWarnings(seen);
+    const std::vector<Finding> found = maskWarnings(seen, true);
     ASSERT_EQ(found.size(), 1u);
     EXPECT_EQ(found[0].code, FindingCode::maskDark);
     EXPECT_NE(found[0].text.find("20 %"), std::string::npos) << found[0].text;
