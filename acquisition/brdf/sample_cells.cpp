@@ -50,7 +50,7 @@ public:
         float sum = 0, squares = 0;
         for (size_t j = 0; j < members.size(); ++j) {
             const auto i = static_cast<uint32_t>(members[j]);
-            // The variance of f = I / (E n.l) falls with the square of the weight, which is n.l times trust.
+            // The variance of f = I / (a E n.l) falls with the square of the weight, which is a n.l times trust.
             const float square = samples.weights[i] * samples.weights[i];
             const float weight = square * huberWeight(j);
             unit += weight * samples.unit[i];

@@ -175,7 +175,7 @@ void explainLeftOut(const Measurement& measurement, ObservationBlocks& blocks, S
     }
 }
 
-// Samples anew, as coarse tables of the first ones judge them; a material without any keeps its none.
+// Samples anew, as coarse tables of the first ones judge them; not where a material has none, which is refused later.
 void judgeSamples(PreparedCapture& prepared, const Capture& capture, const Segmentation& segmentation,
                   const AcquireOptions& options, StageClock& clock, const Progress& progress, NormalsAndSamples& result)
 {
