@@ -149,10 +149,9 @@ void addRenderCommand(CLI::App& app)
             "Motion of the lights over --frames: turntable (about the view), sweep (left to right), none [turntable]")
         ->group("Picture");
     command
-        ->add_option(
-            "--scale", arguments->scale,
-            "Scale of the picture, up to 64: what pixels have is filtered and then shaded, or what is shaded is "
-            "averaged (default: 1)")
+        ->add_option("--scale", arguments->scale,
+                     "Scale of the picture after --size, up to 64: above 1 normals are filtered before they are "
+                     "shaded, below 1 what is shaded is averaged (default: 1)")
         ->group("Picture");
     command
         ->add_option("-o,--output", arguments->output,

@@ -372,7 +372,8 @@ Surface loadSurface(const fs::path& folder)
 {
     const fs::path file = folder / kSurfaceDescription;
     if (!fs::is_directory(folder) || !fs::exists(file)) {
-        throw Error(folder, "is not a surface", "a folder NAME.nacre that `nacre acquire` or `nacre target` wrote");
+        throw Error(folder, fs::exists(folder) ? "is not a surface" : "is not a surface: there is no such folder",
+                    "a folder NAME.nacre that `nacre acquire` or `nacre target` wrote");
     }
     return surfaceOf(JsonNode::loadVersioned(file, kSurfaceFormat, kSurfaceVersion));
 }
