@@ -52,7 +52,7 @@ std::vector<uint8_t> alphaMask(const std::filesystem::path& file, int channels)
 
 } // namespace
 
-MaskPicture loadMask(const fs::path& file, int width, int height)
+MaskPicture loadMask(const std::filesystem::path& file, int width, int height)
 {
     // Masks hold shape, not light: no curve. By rows, since a mask is as large as its photographs.
     ImageRows rows(file, TransferCurve::linear);

@@ -6,6 +6,7 @@
 #include <Eigen/Dense>
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
+#include <glm/mat2x2.hpp>
 #include <glm/trigonometric.hpp>
 
 namespace nacre {

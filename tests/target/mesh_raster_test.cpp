@@ -44,7 +44,7 @@ std::pair<double, double> sphereErrors(const Surface& surface)
     double degrees = 0, pixels = 0;
     for (int y = 0; y < kRasterSize; ++y) {
         for (int x = 0; x < kRasterSize; ++x) {
-            const glm::dvec2 disc((x + 0.5 - kRasterSize / 2) / kRadius, (kRasterSize / 2 - y - 0.5) / kRadius);
+            const glm::dvec2 disc((x + 0.5 - kRasterSize / 2.0) / kRadius, (kRasterSize / 2.0 - y - 0.5) / kRadius);
             if (glm::length(disc) < 0.95) {
                 const size_t i = surface.normals.index(x, y);
                 const double z = std::sqrt(1 - glm::dot(disc, disc));
