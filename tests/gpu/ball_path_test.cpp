@@ -51,18 +51,7 @@ Scene twoMaterialScene()
     return scene;
 }
 
-class BallPathTest : public GpuTest {
-protected:
-    static Renderer rendererOf(const Scene& scene, RenderPath path, VkDeviceSize cacheBytes = Renderer::kCacheBytes)
-    {
-        Renderer renderer(*context, cacheBytes);
-        renderer.setSurface(scene.surface);
-        renderer.setLights(scene.lights);
-        renderer.setView(scene.view);
-        renderer.setPath(path);
-        return renderer;
-    }
-};
+class BallPathTest : public GpuTest {};
 
 TEST_F(BallPathTest, IsAsGoodAsDirect)
 {

@@ -7,6 +7,8 @@
 
 #include "engine/files/error.h"
 #include "engine/gpu/context.h"
+#include "engine/gpu/renderer.h"
+#include "engine/scene/scene.h"
 
 namespace nacre::test {
 
@@ -50,6 +52,16 @@ protected:
         if (context) {
             EXPECT_EQ(context->validationMessages(), messagesBefore_) << "see stderr";
         }
+    }
+
+    static Renderer rendererOf(const Scene& scene, RenderPath path, VkDeviceSize cacheBytes = Renderer::kCacheBytes)
+    {
+        Renderer renderer(*context, cacheBytes);
+        renderer.setSurface(scene.surface);
+        renderer.setLights(scene.lights);
+        renderer.setView(scene.view);
+        renderer.setPath(path);
+        return renderer;
     }
 
     static inline std::unique_ptr<Context> context;

@@ -39,17 +39,7 @@ Scene modulatedScene(int width, int height, int components)
     return scene;
 }
 
-class ResidualTest : public GpuTest {
-protected:
-    static Renderer rendererOf(const Scene& scene, RenderPath path)
-    {
-        Renderer renderer(*context);
-        renderer.setSurface(scene.surface);
-        renderer.setLights(scene.lights);
-        renderer.setPath(path);
-        return renderer;
-    }
-};
+class ResidualTest : public GpuTest {};
 
 TEST_F(ResidualTest, RadianceIsThatOfItsTwin)
 {

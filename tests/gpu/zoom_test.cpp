@@ -10,15 +10,6 @@ namespace {
 
 class ZoomTest : public GpuTest {
 protected:
-    static Renderer rendererOf(const Scene& scene, RenderPath path)
-    {
-        Renderer renderer(*context);
-        renderer.setSurface(scene.surface);
-        renderer.setLights(scene.lights);
-        renderer.setPath(path);
-        return renderer;
-    }
-
     // 16-bit normals may turn the last pixel of a rim.
     static void expectNear(const Image& picture, const Image& expected)
     {
