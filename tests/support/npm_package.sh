@@ -9,7 +9,7 @@ npm_package() {
     mkdir -p "$folder"
     cp "$sources/package.json" "$sources/package-lock.json" "$folder"
     if ! [ -d "$folder/node_modules/$package" ] &&
-        ! npm ci --prefix "$folder" --no-audit --no-fund --ignore-scripts --fetch-retries 0 --fetch-timeout 20000 \
+        ! npm ci --prefix "$folder" --no-audit --no-fund --ignore-scripts --omit=peer --fetch-retries 0 --fetch-timeout 20000 \
             >"$folder/npm.log" 2>&1; then
         echo "needs the npm registry for $package:"
         tail -n 3 "$folder/npm.log"
