@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # page_figures.sh NACRE CAPTURE BYTES EVERY [ARGUMENTS]: what a page of at most BYTES (0: any) shows in Chromium. Every
 # so many-th photograph is held out of the surface, and predicted by the page and by nacre render: PSNR in dB. Then the
-# time to the first picture and the frames a second while a light is dragged at 1280x800.
+# time to the first picture and the frames a second while a light is dragged at 1280x800, then with eight lights on a
+# sphere of 1024x1024 pixels, by balls and without.
 # ARGUMENTS: of acquire and calibrate, such as --mirror-sphere.
 set -euo pipefail
 nacre=$1 capture=$2 bytes=$3 every=$4
@@ -43,14 +44,24 @@ async function measure() {
         context.putImageData(page.codes(), page.shape.x, page.shape.y);
         say(\`picture \${i} \${canvas.toDataURL("image/png").split(",")[1]} end\`);
     }
-    page.go("#");
-    let frames = 0;
-    const begun = performance.now();
-    for (; performance.now() - begun < 6000; ++frames) {
-        page.drag(frames % 200 < 100 ? 2 : -2, frames % 160 < 80 ? 1 : -1);
-        await shown();
-    }
-    say(\`frames \${(1000 * frames / (performance.now() - begun)).toFixed(1)} end\`);
+    const rate = async hash => {
+        page.go(hash);
+        let frames = 0;
+        const begun = performance.now();
+        for (; performance.now() - begun < 6000; ++frames) {
+            page.drag(frames % 200 < 100 ? 2 : -2, frames % 160 < 80 ? 1 : -1);
+            await shown();
+        }
+        return (1000 * frames / (performance.now() - begun)).toFixed(1);
+    };
+    say(\`frames \${await rate("#")} end\`);
+    page.scene.shapes.push(inside.eval("sphereShape(1024)"));
+    page.scene.stops.push(page.scene.stops.at(-1));
+    const eight = Array.from({ length: 8 }, (_, i) => [Math.cos(i), Math.sin(i), 0.3 + 0.2 * i]);
+    const many = \`#shape=\${page.scene.shapes.length - 1}&light=\${eight.join(";")}\`;
+    say(\`balls \${await rate(many)} end\`);
+    page.painter.ballsPay = () => false;
+    say(\`tables \${await rate(many)} end\`);
 }
 measure().catch(error => say(\`error \${error.stack} end\`)).finally(() => hold.close());
 </script>
@@ -72,4 +83,4 @@ for i in "${held[@]}"; do
     echo "$name: rendered $(psnr "$work/rendered.exr" "$name") dB, page $(psnr "$work/shown.exr" "$name") dB"
 done | tee "$work/figures"
 awk '{ r += $3; p += $6 } END { printf "mean of %d held out: rendered %.2f dB, page %.2f dB\n", NR, r / NR, p / NR }' "$work/figures"
-echo "first picture after $(said first) s, $(said frames) frames a second"
+echo "first picture after $(said first) s, $(said frames) frames a second; eight lights on a sphere $(said balls), $(said tables) without balls"

@@ -3,6 +3,8 @@
 "use strict";
 
 const kShow = { picture: 0, normals: 1, labels: 2, coverage: 3 }; // of false_colour.h
+const kShowBall = 16; // of shade.frag
+const kLookup = 0.5; // time of a ball's lookup, in a table's
 const kMostLights = 8;
 
 function compiled(gl, kind, source) {
@@ -50,8 +52,10 @@ class Painter {
         this.photograph = linked(gl, "photograph.frag");
         this.screen = linked(gl, "screen.frag");
         this.framebuffer = gl.createFramebuffer();
+        this.drawsFloats = ["EXT_color_buffer_float", "EXT_color_buffer_half_float"].some(name => gl.getExtension(name));
         this.onDevice = new Map();
         // In place of arrays that a shape does not have: samplers of every kind need a texture that is whole.
+        this.nothing = { x: 0, y: 0, width: 1, height: 1, arrays: { normals: new Uint16Array(2) } };
         this.none = {
             flat: this.flat(gl.RGBA8, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(4)),
             layers: this.layers(gl.RGBA8, 1, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(4)),
@@ -115,24 +119,19 @@ class Painter {
         });
     }
 
-    // A picture to draw into: codes of the display, row 0 on top.
-    makePicture(width, height) {
-        const { gl } = this, texture = this.textureOf(gl.TEXTURE_2D, gl.LINEAR);
-        gl.texStorage2D(gl.TEXTURE_2D, 1 + Math.floor(Math.log2(Math.max(width, height))), gl.RGBA8, width, height);
-        return { texture, width, height };
-    }
-
-    // The one of that name, of this size.
-    picture(name, { width, height }) {
-        const known = this.onDevice.get(name);
+    // The picture of that name to draw into, of this size, row 0 on top: codes of the display.
+    picture(name, { width, height }, format = this.gl.RGBA8) {
+        const { gl } = this, known = this.onDevice.get(name);
         if (known && known.width === width && known.height === height) {
             return known;
         }
         if (known) {
-            this.gl.deleteTexture(known.texture);
+            gl.deleteTexture(known.texture);
         }
-        this.onDevice.set(name, this.makePicture(width, height));
-        return this.onDevice.get(name);
+        const made = { texture: this.textureOf(gl.TEXTURE_2D, gl.LINEAR), width, height };
+        gl.texStorage2D(gl.TEXTURE_2D, 1 + Math.floor(Math.log2(Math.max(width, height))), format, width, height);
+        this.onDevice.set(name, made);
+        return made;
     }
 
     begin(picture, { program }) {
@@ -174,30 +173,78 @@ class Painter {
         if (!Painter.isNew(picture, { ...view, shape: this.scene.shapes.indexOf(view.shape) })) {
             return; // zoomed, moved or wiped
         }
-        const { gl, shade } = this, { shape } = view, textures = this.texturesOf(shape);
-        const isOwn = view.material === null;
+        const { gl, shade, scene } = this, { shape } = view, isOwn = view.material === null;
+        const layer = isOwn && view.layer && shape.residual ? residualFrame(shape.residual, view.lights) : null;
+        const lights = view.lights.map((light, i) =>
+            ({ ...light, irradiance: scaled(light.irradiance, layer ? layer.trusts[i] : 1) }));
+        const isByLabel = isOwn && view.show !== kShow.normals;
+        const numbers = isByLabel ? Array.from({ length: scene.ownMaterials }, (_, i) => i) : [view.material ?? 0];
+        const balls = this.takesBalls(view, numbers) ? numbers.map(number => this.drawnBall(number, lights)) : [];
         this.begin(picture, shade);
+        this.bindShape(shape);
+        gl.uniform1i(shade.at("show"), view.show);
+        gl.uniform1i(shade.at("labels"), scene.ownMaterials);
+        gl.uniform1f(shade.at("gain"), view.gain);
+        this.setPlaces(shape, lights);
+        this.setLights(lights);
+        this.setLayer(shape, layer);
+        numbers.forEach((number, i) => {
+            this.setMaterial(scene.materials[number], isByLabel ? number : -1);
+            this.setBall(balls[i]);
+            this.draw();
+        });
+        this.finish();
+    }
+
+    // Whether balls of the materials of those numbers show the same in less time.
+    takesBalls({ shape, show, lights }, numbers) {
+        const sides = numbers.map(number => this.scene.materials[number].ballSide);
+        const isFar = lights.every(light => light.nearness === 0) && !(shape.places?.viewpoint[3] > 0);
+        return this.drawsFloats && show === kShow.picture && !shape.azimuths && isFar && !sides.includes(0) &&
+            this.ballsPay(shape.width * shape.height, sides, lights.length);
+    }
+
+    ballsPay(pixels, sides, lights) {
+        return dot(sides, sides) * lights + kLookup * pixels < pixels * lights;
+    }
+
+    // The mean of a material's f over the lights by the normal, as ball.h has it.
+    drawnBall(number, lights) {
+        const { gl, shade } = this, material = this.scene.materials[number], side = material.ballSide;
+        const ball = this.picture(`ball ${number}`, { width: side, height: side }, gl.RGBA16F);
+        if (Painter.isNew(ball, lights)) {
+            this.begin(ball, shade);
+            this.bindShape(this.nothing);
+            this.setPlaces(this.nothing, lights);
+            this.setLights(lights);
+            this.setMaterial(material, -1);
+            this.setBall(null);
+            gl.uniform1i(shade.at("show"), kShowBall);
+            gl.uniform1f(shade.at("ballSide"), side);
+            this.draw();
+            this.finish();
+        }
+        return ball;
+    }
+
+    bindShape(shape) {
+        const { gl, shade } = this, textures = this.texturesOf(shape);
         this.bind(shade, 0, gl.TEXTURE_2D, "normals", textures.normals);
         this.bind(shade, 1, gl.TEXTURE_2D, "albedos", textures.factors);
         this.bind(shade, 3, gl.TEXTURE_2D_ARRAY, "horizons", textures.horizons);
         this.bind(shade, 4, gl.TEXTURE_2D, "heights", textures.heights);
         this.bind(shade, 5, gl.TEXTURE_2D_ARRAY, "residual", textures.residual);
-        gl.uniform1i(shade.at("show"), view.show);
-        gl.uniform1i(shade.at("labels"), this.scene.ownMaterials);
         gl.uniform2i(shade.at("corner"), shape.x, shape.y);
         gl.uniform1i(shade.at("azimuths"), shape.azimuths ?? 0);
-        gl.uniform1f(shade.at("gain"), view.gain);
-        this.setPlaces(shape, view.lights);
-        this.setLights(shape, view, isOwn && view.layer);
-        const own = Array.from({ length: this.scene.ownMaterials }, (_, i) => i);
-        for (const label of isOwn && view.show !== kShow.normals ? own : [-1]) {
-            this.setMaterial(label, this.scene.materials[label < 0 ? view.material ?? 0 : label]);
-            this.draw();
-        }
-        this.finish();
     }
 
-    setMaterial(label, material) {
+    setBall(ball) {
+        const { gl, shade } = this;
+        this.bind(shade, 6, gl.TEXTURE_2D, "ball", ball ? ball.texture : this.none.flat);
+        gl.uniform1f(shade.at("ballSide"), ball ? ball.width : 0);
+    }
+
+    setMaterial(material, label) {
         const { gl, shade } = this;
         this.bind(shade, 2, gl.TEXTURE_3D, "table", this.tableOf(material));
         gl.uniform1i(shade.at("material"), label);
@@ -216,17 +263,20 @@ class Painter {
         gl.uniform4f(shade.at("viewpoint"), ...viewpoint);
     }
 
-    setLights(shape, { lights }, hasLayer) {
+    setLights(lights) {
         const { gl, shade } = this;
-        const layer = hasLayer && shape.residual ? residualFrame(shape.residual, lights) : null;
         const places = new Float32Array(4 * kMostLights), irradiances = new Float32Array(3 * kMostLights);
         lights.forEach((light, i) => {
             places.set([...light.direction, light.nearness], 4 * i);
-            irradiances.set(scaled(light.irradiance, layer ? layer.trusts[i] : 1), 3 * i);
+            irradiances.set(light.irradiance, 3 * i);
         });
         gl.uniform1i(shade.at("lightCount"), lights.length);
         gl.uniform4fv(shade.at("lights"), places);
         gl.uniform3fv(shade.at("irradiances"), irradiances);
+    }
+
+    setLayer(shape, layer) {
+        const { gl, shade } = this;
         gl.uniform1i(shade.at("residualFours"), layer ? Math.ceil(shape.residual.low.length / 4) : 0);
         if (layer) {
             gl.uniform3f(shade.at("residualOffset"), ...layer.offset);

@@ -11,6 +11,7 @@
 #include "engine/lights/light_plane.h"
 #include "engine/page/held_by_page.h"
 #include "engine/page/packed_plane.h"
+#include "engine/scene/ball_size.h"
 #include "engine/scene/coverage.h"
 #include "engine/surface/object_places.h"
 
@@ -210,6 +211,7 @@ nlohmann::json describeMaterial(const Material& material, PageParts& parts)
             {"size", {table.size.x, table.size.y, table.size.z}},
             {"coordinates", table.domain.coordinates},
             {"thetaDMax", table.domain.thetaDMax},
+            {"ballSide", measuredMeanBallSide(table)},
             {"planes", planes}};
 }
 

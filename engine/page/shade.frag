@@ -1,7 +1,7 @@
 #version 300 es
-// One material's pixels of a shape under a few lights, as codes of the display: what direct.frag, residual.frag,
-// display.frag and false_colour.frag do one after the other. engine/scene/reference.cpp is its twin. Row 0 of the target
-// is the picture's top.
+// One material's pixels of a shape under a few lights, as codes of the display: what direct.frag or ball.frag,
+// residual.frag, display.frag and false_colour.frag do one after the other. engine/scene/reference.cpp is its twin. Row 0
+// of the target is the picture's top. It draws the balls of ball.h, too.
 precision highp float;
 precision highp int;
 precision highp sampler2D;
@@ -21,6 +21,7 @@ precision highp usampler2D;
 
 const int kMostPageLights = 8;
 const float kNormalSteps = 8191.0; // of held_by_page.h
+const int kShowBall = 16;          // beside those of false_colour.h
 
 uniform usampler2D normals;      // codes of packed normals; 65535: none
 uniform sampler2D albedos;       // RGB factor, A label; read where `material` says so
@@ -28,8 +29,9 @@ uniform sampler3D table;         // f in 1/sr, A its expected relative error
 uniform sampler2DArray horizons; // codes of horizon.h / 255, a layer an azimuth
 uniform sampler2D heights;       // R: the third coordinate of the pixel's place
 uniform sampler2DArray residual; // codes of four components a layer
+uniform sampler2D ball;          // of the material under these lights; read where ballSide says so
 
-uniform int show;     // kShowPicture, kShowNormals, kShowLabels or kShowCoverage
+uniform int show;     // kShowPicture, kShowNormals, kShowLabels, kShowCoverage or kShowBall
 uniform int material; // label that is shaded, -1: every pixel, its factor being 1
 uniform int labels;   // of all materials; pixels of others are not shown
 uniform ivec2 corner; // of the stored rectangle in the whole picture
@@ -39,6 +41,7 @@ uniform bool isJudged;      // the table tells its error
 uniform int azimuths;       // of the horizons, 0: there are none
 uniform vec4 placeFrame;    // xy the object's middle, z its width, in pixels; w 1 where lights or camera can be near
 uniform vec4 viewpoint;     // see lens.h
+uniform float ballSide;     // texels across of the ball that is read, or drawn; 0: none
 uniform int lightCount;
 uniform vec4 lights[kMostPageLights];      // xyz unit, towards the light; w 1 / distance, 0 of a distant one
 uniform vec3 irradiances[kMostPageLights]; // that the BRDF sees
@@ -93,6 +96,30 @@ vec4 lit(vec3 n, vec3 view, vec3 place, ivec2 pixel)
     return sum;
 }
 
+// What the ball of a page holds.
+vec3 meanBrdf(vec3 n, vec3 view)
+{
+    vec3 sum = vec3(0.0), shares = vec3(1e-9);
+    for (int i = 0; i < kMostPageLights && i < lightCount; ++i) {
+        LightFrame light = lightFrame(lights[i].xyz, view, irradiances[i]);
+        vec3 m = normalInFrame(light, n);
+        vec3 share = shareInMean(light.irradiance.rgb, cosineInFrame(light, m));
+        sum += share * brdf(light, view, n, m).rgb;
+        shares += share;
+    }
+    return sum / shares;
+}
+
+// The same as lit where lights and camera are distant and nothing casts a shadow: one lookup for all lights.
+vec4 litByBall(vec3 n)
+{
+    vec3 f = textureLod(ball, ballTexelFromNormal(n, ballSide), 0.0).rgb, sum = vec3(0.0);
+    for (int i = 0; i < kMostPageLights && i < lightCount; ++i) {
+        sum += radianceFromBrdf(f, irradiances[i], dot(n, lights[i].xyz));
+    }
+    return vec4(sum, 0.0);
+}
+
 vec3 residualOf(ivec2 pixel)
 {
     vec3 sum = residualOffset;
@@ -106,6 +133,10 @@ vec3 residualOf(ivec2 pixel)
 void main()
 {
     ivec2 pixel = ivec2(gl_FragCoord.xy);
+    if (show == kShowBall) {
+        code = vec4(meanBrdf(normalFromBallTexel(gl_FragCoord.xy / ballSide, ballSide), viewpoint.xyz), 1.0);
+        return;
+    }
     vec2 disc = vec2(texelFetch(normals, pixel, 0).xy) / kNormalSteps - 1.0;
     vec4 albedo = material < 0 ? vec4(1.0, 1.0, 1.0, 0.0) : texelFetch(albedos, pixel, 0);
     int label = int(albedo.a + 0.5);
@@ -122,7 +153,7 @@ void main()
         code = vec4(falseColour(show, n, label, none), 1.0);
         return;
     }
-    vec4 radiance = lit(n, view, place, pixel);
+    vec4 radiance = ballSide > 0.0 ? litByBall(n) : lit(n, view, place, pixel);
     vec3 all = albedo.rgb * radiance.rgb;
     if (residualFours > 0) {
         all += residualOf(pixel);

@@ -70,24 +70,21 @@ Image materialThumbnail(const BrdfModel& model, int size)
     return picture;
 }
 
-Ball makeBall(const BrdfTable& table, std::span<const Light> lights, int size, int threads)
+namespace {
+
+template <class At> Ball filledBall(int size, int threads, At&& at)
 {
     Ball ball{Image(size, size, 3)};
     parallelFor(size, 4, threads, [&](size_t first, size_t last) {
         for (int y = static_cast<int>(first); y < static_cast<int>(last); ++y) {
             for (int x = 0; x < size; ++x) {
                 const glm::vec2 texel((x + 0.5f) / size, (y + 0.5f) / size);
-                const glm::vec3 n = normalFromBallTexel(texel, static_cast<float>(size));
-                ball.radiance.setRgb(x, y, radianceUnder(lights, n, [&](const glm::vec3& l) {
-                                         return evaluateTable(table, n, l, kFrontView).value;
-                                     }));
+                ball.radiance.setRgb(x, y, at(normalFromBallTexel(texel, static_cast<float>(size))));
             }
         }
     });
     return ball;
 }
-
-namespace {
 
 // At texture coordinates.
 glm::vec3 filteredBall(const Ball& ball, const glm::vec2& texel)
@@ -104,9 +101,36 @@ glm::vec3 filteredBall(const Ball& ball, const glm::vec2& texel)
 
 } // namespace
 
+Ball makeBall(const BrdfTable& table, std::span<const Light> lights, int size, int threads)
+{
+    return filledBall(size, threads, [&](const glm::vec3& n) {
+        return radianceUnder(lights, n,
+                             [&](const glm::vec3& l) { return evaluateTable(table, n, l, kFrontView).value; });
+    });
+}
+
 glm::vec3 sampleBall(const Ball& ball, const glm::vec3& normal)
 {
     return filteredBall(ball, ballTexelFromNormal(normal, static_cast<float>(ball.radiance.width)));
+}
+
+Ball makeMeanBall(const BrdfTable& table, std::span<const Light> lights, int size, int threads)
+{
+    return filledBall(size, threads, [&](const glm::vec3& n) {
+        glm::vec3 sum(0), shares(1e-9f);
+        for (const Light& light : lights) {
+            const glm::vec3 share = shareInMean(light.irradiance, glm::dot(n, light.direction));
+            sum += share * evaluateTable(table, n, light.direction, kFrontView).value;
+            shares += share;
+        }
+        return sum / shares;
+    });
+}
+
+glm::vec3 sampleMeanBall(const Ball& ball, std::span<const Light> lights, const glm::vec3& normal)
+{
+    const glm::vec3 f = sampleBall(ball, normal);
+    return radianceUnder(lights, normal, [&](const glm::vec3&) { return f; });
 }
 
 glm::vec3 sampleStretchedBall(const Ball& ball, int displaySize, const glm::vec3& normal)

@@ -47,6 +47,11 @@ Ball makeBall(const BrdfTable& table, std::span<const Light> lights, int size, i
 // Bilinear, for a unit normal with z >= 0.
 glm::vec3 sampleBall(const Ball& ball, const glm::vec3& normal);
 
+// A ball with the mean of f over the lights (shareInMean) in place of radiance, as pages have it, and the radiance by
+// it.
+Ball makeMeanBall(const BrdfTable& table, std::span<const Light> lights, int size, int threads = 0);
+glm::vec3 sampleMeanBall(const Ball& ball, std::span<const Light> lights, const glm::vec3& normal);
+
 // What the ball path of the renderer has for the normal: the nearest texel of the ball stretched (bilinearly) to
 // `displaySize` texels across.
 glm::vec3 sampleStretchedBall(const Ball& ball, int displaySize, const glm::vec3& normal);

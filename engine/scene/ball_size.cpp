@@ -20,6 +20,8 @@ constexpr std::array kRadianceSizes = {64, 128, 256, 512, 1024};
 constexpr std::array kDisplaySizes = {320, 384, 512, 1024, 2048};
 constexpr int kProbeSide = 160; // of the picture of a sphere that is compared
 constexpr float kVisibleStep = 4.0f / 255;
+constexpr float kFilteredStep = 1.5f / 255; // codes differ by 2 at most
+constexpr int kMostFilteredSide = 512;
 
 // Nanoseconds a texel on two cores with lavapipe, for a picture under four lights.
 double rebuildCost(const BallSize& size)
@@ -56,7 +58,7 @@ std::vector<glm::vec3> probeNormals()
     return normals;
 }
 
-bool isCloseEnough(const Image& picture, const Image& expected)
+bool isCloseEnough(const Image& picture, const Image& expected, float step)
 {
     const std::vector<uint8_t> all(picture.pixelCount(), 1);
     size_t visible = 0;
@@ -64,7 +66,7 @@ bool isCloseEnough(const Image& picture, const Image& expected)
         const float* a = &picture.values[3 * i];
         const float* b = &expected.values[3 * i];
         const float worst = std::max({std::abs(a[0] - b[0]), std::abs(a[1] - b[1]), std::abs(a[2] - b[2])});
-        visible += worst > kVisibleStep * 1.001f;
+        visible += worst > step * 1.001f;
     }
     return picturePsnr(picture, expected, all) >= kLeastPsnr &&
            static_cast<double>(visible) <= kLargestShare * static_cast<double>(picture.pixelCount());
@@ -95,39 +97,66 @@ float exposureOf(const std::vector<glm::vec3>& radiance)
     return automaticExposure(row);
 }
 
+// The picture that a ball's is compared with.
+struct Probe {
+    std::vector<Light> lights = probeLights();
+    std::vector<glm::vec3> normals = probeNormals();
+    float stops = 0;
+    Image expected;
+
+    explicit Probe(const BrdfTable& table)
+    {
+        const std::vector<glm::vec3> truth = sampled(normals, [&](const glm::vec3& n) {
+            return radianceUnder(lights, n, [&](const glm::vec3& l) {
+                return evaluateTable(table, n, l, {0, 0, 1}).value;
+            });
+        });
+        stops = exposureOf(truth);
+        expected = pictureOf(truth, stops);
+    }
+
+    template <class Sample> bool accepts(Sample&& sample, float step) const
+    {
+        return isCloseEnough(pictureOf(sampled(normals, sample), stops), expected, step);
+    }
+};
+
 } // namespace
 
 BallSize measuredBallSize(const BrdfTable& table, int threads)
 {
-    const std::vector<Light> lights = probeLights();
-    const std::vector<glm::vec3> normals = probeNormals();
-    const std::vector<glm::vec3> truth = sampled(normals, [&](const glm::vec3& n) {
-        return radianceUnder(lights, n, [&](const glm::vec3& l) {
-            return evaluateTable(table, n, l, {0, 0, 1}).value;
-        });
-    });
-    const float stops = exposureOf(truth);
-    const Image expected = pictureOf(truth, stops);
+    const Probe probe(table);
     BallSize best;
     for (const int radiance : kRadianceSizes) {
         if (best.radiance != 0 && rebuildCost({radiance, kDisplaySizes.front()}) >= rebuildCost(best)) {
             break;
         }
-        const Ball ball = makeBall(table, lights, radiance, threads);
+        const Ball ball = makeBall(table, probe.lights, radiance, threads);
         for (const int display : kDisplaySizes) {
             const BallSize size{radiance, display};
             if (best.radiance != 0 && rebuildCost(size) >= rebuildCost(best)) {
                 break;
             }
-            const auto found =
-                sampled(normals, [&](const glm::vec3& n) { return sampleStretchedBall(ball, display, n); });
-            if (isCloseEnough(pictureOf(found, stops), expected)) {
+            if (probe.accepts([&](const glm::vec3& n) { return sampleStretchedBall(ball, display, n); },
+                              kVisibleStep)) {
                 best = size;
                 break;
             }
         }
     }
     return best;
+}
+
+int measuredMeanBallSide(const BrdfTable& table, int threads)
+{
+    const Probe probe(table);
+    for (int side = kRadianceSizes.front(); side <= kMostFilteredSide; side *= 2) {
+        const Ball ball = makeMeanBall(table, probe.lights, side, threads);
+        if (probe.accepts([&](const glm::vec3& n) { return sampleMeanBall(ball, probe.lights, n); }, kFilteredStep)) {
+            return side;
+        }
+    }
+    return 0;
 }
 
 } // namespace nacre

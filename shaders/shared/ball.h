@@ -69,6 +69,13 @@ NACRE_FN ivec2 nearestBallTexelOfPacked(vec2 packed, int size)
     return ivec2(vec2(packed.x, -packed.y) * reach + vec2(0.5f * float(size)));
 }
 
+// A ball that pixels read filtered holds the mean of f over the lights, each counting by this: radiance has a crease
+// where a light sets, which filtering smooths. Lights that have set count a little, so that every normal has a mean.
+NACRE_FN vec3 shareInMean(vec3 irradiance, float nDotL)
+{
+    return irradiance * max(nDotL, 0.001f);
+}
+
 // Texture coordinates of the same place in a ball of another size.
 NACRE_FN vec2 resizedBallTexel(vec2 texel, float size, float otherSize)
 {

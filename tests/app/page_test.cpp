@@ -72,6 +72,16 @@ Surface pageSurface()
     return surface;
 }
 
+// The same without what balls cannot show: shadows, and lights and a camera near by.
+Surface farSurface()
+{
+    Surface surface = pageSurface();
+    surface.castsShadows = false;
+    surface.camera.reset();
+    surface.lights[0].light.distance = std::numeric_limits<float>::infinity();
+    return surface;
+}
+
 // A small one with a residual layer.
 Surface smallSurface()
 {
@@ -162,6 +172,9 @@ async function show(frame) {
         await new Promise(loaded => frame.addEventListener("load", loaded));
     }
     const page = await frame.contentWindow.nacrePage;
+    if (/^far/.test(frame.name)) {
+        page.painter.ballsPay = () => true; // small as they are
+    }
     const tell = (hash, i) => {
         page.go(hash);
         const cut = document.createElement("canvas");
@@ -179,6 +192,7 @@ async function show(frame) {
     setTimeout(() => context.restoreContext()); // after the event
     await back;
     tell(hashes[frame.name][0], "again");
+    say(`balls ${frame.name} ${[...page.painter.onDevice.keys()].filter(key => /^ball \d/.test(key)).length} end`);
     const root = frame.contentDocument.documentElement;
     say(`wider ${frame.name} ${root.scrollWidth > frame.contentWindow.innerWidth} end`);
 }
@@ -242,12 +256,18 @@ void expectAlike(const Image& shown, const Image& expected, const std::string& n
     EXPECT_LE(difference.share(), 0.001) << name << ": largest " << difference.largest;
 }
 
+std::vector<Light> fourLights()
+{
+    return {lightFrom({-0.4f, 0.5f, 0.8f}, {0.8f, 0.7f, 0.6f}), lightFrom({0.6f, 0.2f, 0.7f}, {0.9f, 0.2f, 0.1f}),
+            lightFrom({0.1f, -0.8f, 0.5f}, {0.1f, 0.5f, 0.2f}), lightFrom({-0.7f, -0.2f, 0.4f}, {0.1f, 0.2f, 0.8f})};
+}
+
 // The states of a.html.
 std::vector<PageState> writeSurfacePage(const TempFolder& folder)
 {
     const Surface surface = pageSurface();
     saveSurface(folder / "a.nacre", surface, false);
-    saveNormalMap(folder / "n.exr", bumpyNormals(160, 120));
+    saveNormalMap(folder / "n.exr", bumpyNormals(320, 240));
     const ProgramRun made =
         runNacre({"export", (folder / "a.nacre").string(), "--page", (folder / "a.html").string(), "--onto",
                   (folder / "n.exr").string(), "--materials", (folder / "a.nacre#2").string(), "--tolerance", "200dB"});
@@ -256,11 +276,9 @@ std::vector<PageState> writeSurfacePage(const TempFolder& folder)
     own.horizon = horizonMap(own.normals, heightInPicture(own));
     Surface bare = own;
     bare.residual = {};
-    const Surface moved = transferredSurface(bumpyNormals(160, 120), surface.materials[0]);
-    const Light one = lightFrom({-0.4f, 0.5f, 0.8f}, {0.8f, 0.7f, 0.6f});
-    const std::vector<Light> four = {one, lightFrom({0.6f, 0.2f, 0.7f}, {0.9f, 0.2f, 0.1f}),
-                                     lightFrom({0.1f, -0.8f, 0.5f}, {0.1f, 0.5f, 0.2f}),
-                                     lightFrom({-0.7f, -0.2f, 0.4f}, {0.1f, 0.2f, 0.8f})};
+    const Surface moved = transferredSurface(bumpyNormals(320, 240), surface.materials[0]);
+    const std::vector<Light> four = fourLights();
+    const Light one = four[0];
     const Light unmeasured = lightFrom({0.95f, 0.1f, 0.2f}, glm::vec3(1.5f));
     const Light near = lightFrom({0.3f, 0.4f, 0.6f}, glm::vec3(1), 1.2f);
     return {stateOf(bare, {one}, "layer=off"),
@@ -272,6 +290,30 @@ std::vector<PageState> writeSurfacePage(const TempFolder& folder)
             stateOf(bare, four, "show=coverage&layer=off", Show::coverage),
             stateOf(own, {unmeasured}, "layer=on"),
             stateOf(bare, {near}, "layer=off")};
+}
+
+// The states of c.html, where balls of three materials take the place of tables.
+std::vector<PageState> writeFarPage(const TempFolder& folder)
+{
+    const Surface surface = farSurface();
+    saveSurface(folder / "c.nacre", surface, false);
+    Surface glossy = farSurface();
+    glossy.residual = {};
+    glossy.materials = {
+        materialOf(LambertGgx{.diffuse = {0.2f, 0.1f, 0.05f}, .specular = glm::vec3(0.1f), .alpha = 0.12f},
+                   {kHalfDifference, kHalfPi / 2}, {60, 16, 8})};
+    std::fill(glossy.labels.begin(), glossy.labels.end(), uint8_t{0});
+    saveSurface(folder / "glossy.nacre", glossy, false);
+    const ProgramRun made = runNacre({"export", (folder / "c.nacre").string(), "--page", (folder / "c.html").string(),
+                                      "--materials", (folder / "glossy.nacre").string(), "--tolerance", "200dB"});
+    EXPECT_EQ(made.exitCode, 0) << made.err;
+    std::vector<Light> eight = fourLights();
+    for (const Light& light : fourLights()) {
+        const glm::vec3 &d = light.direction, &e = light.irradiance;
+        eight.push_back(lightFrom({d.y, -d.x, 1.5f * d.z}, 0.4f * glm::vec3(e.z, e.y, e.x)));
+    }
+    return {stateOf(surface, eight, "layer=on"),
+            stateOf(transferredSurface(surface, glossy.materials[0]), eight, "material=2")};
 }
 
 // A capture of which two photographs are held back, and the page of the rest: what these two show, and what the program
@@ -326,20 +368,28 @@ TEST_F(Page, BrowserShowsWhatTheTwinAndThePhotographsDo)
         GTEST_SKIP() << "needs chromium (apt.txt)";
     }
     const std::vector<PageState> states = writeSurfacePage(folder_);
+    const std::vector<PageState> farStates = writeFarPage(folder_);
     const HeldOutPhotographs held = writeHeldOutPage(folder_);
-    writeText(folder_ / "harness.html", harness({{"phone", "a.html", 390, states},
-                                                 {"desk", "a.html", 1280, states},
-                                                 {"held", "b.html", 390, held.states}}));
+    const std::vector<PageFrame> frames = {{"phone", "a.html", 390, states},
+                                           {"desk", "a.html", 1280, states},
+                                           {"far-phone", "c.html", 390, farStates},
+                                           {"far-desk", "c.html", 1280, farStates}};
+    std::vector<PageFrame> all = frames;
+    all.push_back({"held", "b.html", 390, held.states});
+    writeText(folder_ / "harness.html", harness(all));
     const ProgramRun shown = browse(folder_, "harness.html");
     EXPECT_EQ(shown.err.find("CONSOLE"), std::string::npos) << shown.err;
     EXPECT_EQ(saidBehind(shown.out, "error "), "");
-    for (const std::string frame : {"phone", "desk"}) {
+    for (const auto& [frame, file, width, expected] : frames) {
         EXPECT_EQ(saidBehind(shown.out, "wider " + frame + " "), "false");
-        for (size_t i = 0; i < states.size(); ++i) {
-            const std::string name = fmt::format("{}-{}", frame, i);
-            expectAlike(shownPicture(shown.out, name, folder_), states[i].expected, name);
+        if (file == "c.html") {
+            EXPECT_EQ(saidBehind(shown.out, "balls " + frame + " "), "2"); // of the first state's materials
         }
-        expectAlike(shownPicture(shown.out, frame + "-again", folder_), states[0].expected, "after a lost context");
+        for (size_t i = 0; i < expected.size(); ++i) {
+            const std::string name = fmt::format("{}-{}", frame, i);
+            expectAlike(shownPicture(shown.out, name, folder_), expected[i].expected, name);
+        }
+        expectAlike(shownPicture(shown.out, frame + "-again", folder_), expected[0].expected, "after a lost context");
     }
     for (size_t i = 0; i < held.states.size(); ++i) {
         const Image picture = shownPicture(shown.out, fmt::format("held-{}", i), folder_);
