@@ -4,6 +4,7 @@
 const element = id => document.getElementById(id);
 const kBallSide = 160;     // pixels of the light ball's picture
 const kBallScreenSide = 264; // and of the canvas that it is drawn on, with marks
+const kPatience = 300; // milliseconds until a picture is shown that has no shadows yet
 const kLightRadius = 0.5; // of the ball that a drag on the picture turns, in the stage's shorter side
 
 class Page {
@@ -256,6 +257,7 @@ class Page {
         text += polar < 1 ? "from the camera" : `${polar}° from the camera, at ${clock} o'clock`;
         text += state.photograph !== null ? `, as in photograph ${this.photographName()}` : "";
         text += state.show === "coverage" ? ". Stripes: where the material is expected to be off by more than 20 %" : "";
+        text += this.shape.azimuths && !this.shape.arrays.horizons ? ". Cast shadows are still being found" : "";
         return `${text}.`;
     }
 
@@ -546,10 +548,13 @@ async function open() {
             "Present versions of Firefox, Chrome, Edge and Safari have it.";
         return null;
     }
-    const scene = await decodedScene();
+    const scene = await decodedScene(), baked = bakeShapes(scene.shapes);
+    await Promise.race([baked, new Promise(done => setTimeout(done, kPatience))]);
     element("panel").hidden = false;
     const page = new Page(scene, gl);
     notice.remove();
+    await baked;
+    page.changed();
     return page;
 }
 

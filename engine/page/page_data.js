@@ -114,11 +114,10 @@ async function decodedShape(shape) {
         decodedNormals(shape), shape.labels === undefined ? nothing : decodedFactors(shape),
         shape.residual ? decodedResidual(shape) : nothing,
         shape.places?.plane === undefined ? nothing : decodedHeights(shape)]);
-    const horizons = shape.azimuths ? bakedHorizons(shape, normals, heights) : null;
     if (residual) {
         shape.residual.weights = await decodedWeights(shape.residual);
     }
-    return { ...shape, arrays: { normals, factors, residual, horizons, heights } };
+    return { ...shape, arrays: { normals, factors, residual, heights } }; // and horizons, later
 }
 
 // Half floats, RGBA: f and its expected error.

@@ -22,42 +22,44 @@ function heightField(width, height, first, whole, valueAt) {
     return { width, height, first, whole, values, cliffs };
 }
 
-const nearer = (a, b, share) => share < 0.5 ? a : b;
-const between = (a, b, share) => Number.isNaN(a) || Number.isNaN(b) ? nearer(a, b, share) : a + share * (b - a);
+const isNothing = value => value !== value; // NaN; Number.isNaN takes longer in these loops
 
-// Calls write(x, y, sine) for all pixels with data.
-function sweep({ width, height, first, whole, values, cliffs }, isForward, drift, write) {
-    const column = i => isForward ? i : width - 1 - i, stepLength = Math.hypot(1, drift);
-    const below = new Int32Array(width), share = new Float32Array(width);
+// Writes a code for each pixel with data: column x, row y to element x strideX + y strideY of the layer.
+function sweep({ width, height, first, whole, values, cliffs }, isForward, drift, layer, strideX, strideY) {
+    const stepLength = Math.hypot(1, drift);
+    const column = new Int32Array(width), below = new Int32Array(width), share = new Float32Array(width);
     for (let i = 0; i < width; ++i) {
         const rows = Math.fround(drift * (i + (isForward ? first : whole - first - width)));
+        column[i] = isForward ? i : width - 1 - i;
         below[i] = Math.floor(rows);
         share[i] = rows - below[i];
     }
     const hullStep = new Float64Array(width), hullHeight = new Float64Array(width);
-    let size = 0;
-    const passed = (step, z) => {
-        while (size > 1 && (hullHeight[size - 1] - z) * (hullStep[size - 2] - step) <=
-            (hullHeight[size - 2] - z) * (hullStep[size - 1] - step)) {
-            --size;
-        }
-        let sine = kLowestHorizon;
-        if (size > 0) {
-            const rise = hullHeight[size - 1] - z, run = (hullStep[size - 1] - step) * stepLength;
-            sine = rise / Math.sqrt(rise * rise + run * run);
-        }
-        hullStep[size] = step;
-        hullHeight[size++] = z;
-        return sine;
-    };
+    // From the light on, over the highest points so far: their upper hull.
     const sweepLine = (line, sines) => {
-        size = 0;
+        let size = 0;
         for (let i = width - 1; i >= 0; --i) {
-            const y = line + below[i], at = y * width + column(i);
+            const y = line + below[i], at = y * width + column[i];
             const upper = y >= 0 && y < height ? values[at] : NaN;
             const lower = y >= -1 && y < height - 1 ? values[at + width] : NaN;
-            const z = y >= 0 && cliffs[at] ? nearer(upper, lower, share[i]) : between(upper, lower, share[i]);
-            sines[i] = Number.isNaN(z) ? NaN : passed(i, z);
+            const part = share[i], isTorn = isNothing(upper) || isNothing(lower) || (y >= 0 && cliffs[at]);
+            const z = isTorn ? (part < 0.5 ? upper : lower) : upper + part * (lower - upper);
+            if (isNothing(z)) {
+                sines[i] = NaN;
+                continue;
+            }
+            while (size > 1 && (hullHeight[size - 1] - z) * (hullStep[size - 2] - i) <=
+                (hullHeight[size - 2] - z) * (hullStep[size - 1] - i)) {
+                --size;
+            }
+            if (size > 0) {
+                const rise = hullHeight[size - 1] - z, run = (hullStep[size - 1] - i) * stepLength;
+                sines[i] = rise / Math.sqrt(rise * rise + run * run);
+            } else {
+                sines[i] = kLowestHorizon;
+            }
+            hullStep[size] = i;
+            hullHeight[size++] = z;
         }
     };
     const least = Math.min(below[0], below[width - 1]), most = Math.max(below[0], below[width - 1]);
@@ -65,21 +67,22 @@ function sweep({ width, height, first, whole, values, cliffs }, isForward, drift
     for (let line = -most - 1; line <= height - least; ++line) {
         sweepLine(line, current);
         for (let i = 0; i < width; ++i) { // the pixels between the line before and this one
-            const x = column(i), y = line - 1 + below[i] + (share[i] === 0 ? 0 : 1), at = y * width + x;
-            if (y >= 0 && y < height && !Number.isNaN(values[at])) {
-                const isTorn = cliffs[at] || (y > 0 && cliffs[at - width]);
-                const sine = share[i] === 0 ? before[i]
-                    : (isTorn ? nearer : between)(before[i], current[i], 1 - share[i]);
-                write(x, y, Number.isNaN(sine) ? kLowestHorizon : sine);
+            const x = column[i], part = share[i], y = line - 1 + below[i] + (part === 0 ? 0 : 1), at = y * width + x;
+            if (y >= 0 && y < height && !isNothing(values[at])) {
+                const upper = before[i], lower = current[i];
+                const isTorn = isNothing(upper) || isNothing(lower) || cliffs[at] || (y > 0 && cliffs[at - width]);
+                const sine = part === 0 ? upper
+                    : isTorn ? (part > 0.5 ? upper : lower) : upper + (1 - part) * (lower - upper);
+                layer[x * strideX + y * strideY] = horizonCode(isNothing(sine) ? kLowestHorizon : sine);
             }
         }
         [before, current] = [current, before];
     }
 }
 
-// A layer an azimuth. `heights`: in widths of the object.
-function bakedHorizons({ x, y, width, height, whole, azimuths, places }, normals, heights) {
-    const { viewpoint } = places, pixels = width * height;
+// Bakes the horizons of a shape, a layer an azimuth; waits for pause() after each. `heights`: in widths of the object.
+async function bakedHorizons({ x, y, width, height, whole, azimuths, places, arrays }, pause) {
+    const { viewpoint } = places, { normals, heights } = arrays, pixels = width * height;
     const inPicture = i => normals[2 * i] === kNoNormal ? NaN
         : places.width * heights[i] / (1 - heights[i] * viewpoint[3] / viewpoint[2]); // pointInPicture of lens.h
     const field = heightField(width, height, x, whole[0], (u, v) => inPicture(v * width + u));
@@ -89,14 +92,25 @@ function bakedHorizons({ x, y, width, height, whole, azimuths, places }, normals
         const angle = 2 * Math.PI * azimuth / azimuths, right = Math.cos(angle), down = -Math.sin(angle);
         const layer = codes.subarray(pixels * azimuth, pixels * (azimuth + 1));
         if (Math.abs(right) >= Math.abs(down)) {
-            sweep(field, right > 0, Math.fround(down / Math.abs(right)), (u, v, sine) => {
-                layer[v * width + u] = horizonCode(sine);
-            });
+            sweep(field, right > 0, Math.fround(down / Math.abs(right)), layer, 1, width);
         } else {
-            sweep(turned, down > 0, Math.fround(right / Math.abs(down)), (v, u, sine) => {
-                layer[v * width + u] = horizonCode(sine);
-            });
+            sweep(turned, down > 0, Math.fround(right / Math.abs(down)), layer, width, 1);
         }
+        await pause();
     }
     return codes;
+}
+
+// Of all shapes that cast shadows. The page stays awake: a shape of many pixels takes seconds.
+async function bakeShapes(shapes) {
+    let last = performance.now();
+    const pause = async () => {
+        if (performance.now() - last > 40) {
+            await new Promise(done => setTimeout(done));
+            last = performance.now();
+        }
+    };
+    for (const shape of shapes.filter(({ azimuths }) => azimuths)) {
+        shape.arrays.horizons = await bakedHorizons(shape, pause);
+    }
 }

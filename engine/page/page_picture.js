@@ -104,10 +104,14 @@ class Painter {
             residual: arrays.residual
                 ? this.layers(gl.RGBA8, width, height, Math.ceil(shape.residual.low.length / 4), gl.RGBA,
                     gl.UNSIGNED_BYTE, arrays.residual) : this.none.layers,
-            horizons: arrays.horizons
-                ? this.layers(gl.R8, width, height, shape.azimuths, gl.RED, gl.UNSIGNED_BYTE, arrays.horizons)
-                : this.none.layers,
         }));
+    }
+
+    // Null until they are baked.
+    horizonsOf({ width, height, azimuths, arrays }) {
+        const { gl } = this;
+        return arrays.horizons ? this.held(arrays.horizons, () =>
+            this.layers(gl.R8, width, height, azimuths, gl.RED, gl.UNSIGNED_BYTE, arrays.horizons)) : null;
     }
 
     tableOf(material) {
@@ -170,7 +174,8 @@ class Painter {
 
     // `view`: shape, material (null: the shape's own), lights, show, layer, gain.
     paint(picture, view) {
-        if (!Painter.isNew(picture, { ...view, shape: this.scene.shapes.indexOf(view.shape) })) {
+        const hasHorizons = Boolean(view.shape.arrays.horizons);
+        if (!Painter.isNew(picture, { ...view, shape: this.scene.shapes.indexOf(view.shape), hasHorizons })) {
             return; // zoomed, moved or wiped
         }
         const { gl, shade, scene } = this, { shape } = view, isOwn = view.material === null;
@@ -228,14 +233,14 @@ class Painter {
     }
 
     bindShape(shape) {
-        const { gl, shade } = this, textures = this.texturesOf(shape);
+        const { gl, shade } = this, textures = this.texturesOf(shape), horizons = this.horizonsOf(shape);
         this.bind(shade, 0, gl.TEXTURE_2D, "normals", textures.normals);
         this.bind(shade, 1, gl.TEXTURE_2D, "albedos", textures.factors);
-        this.bind(shade, 3, gl.TEXTURE_2D_ARRAY, "horizons", textures.horizons);
+        this.bind(shade, 3, gl.TEXTURE_2D_ARRAY, "horizons", horizons ?? this.none.layers);
         this.bind(shade, 4, gl.TEXTURE_2D, "heights", textures.heights);
         this.bind(shade, 5, gl.TEXTURE_2D_ARRAY, "residual", textures.residual);
         gl.uniform2i(shade.at("corner"), shape.x, shape.y);
-        gl.uniform1i(shade.at("azimuths"), shape.azimuths ?? 0);
+        gl.uniform1i(shade.at("azimuths"), horizons ? shape.azimuths : 0);
     }
 
     setBall(ball) {
