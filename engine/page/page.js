@@ -105,7 +105,7 @@ class Page {
         };
         this.scene.lights.forEach(light => mark(light.direction, 0.008, "#fff8", "#0000"));
         this.state.lights.forEach((light, i) =>
-            mark(light.direction, 0.042, this.colourOf(light), i === this.state.chosen ? "#fff" : "#000c"));
+            mark(light.direction, 0.042, colourOf(light, this.scene.white), i === this.state.chosen ? "#fff" : "#000c"));
     }
 
     // Where the picture lies on the canvas.
@@ -189,7 +189,7 @@ class Page {
             button.setAttribute("aria-pressed", i === state.photograph));
         this.showLights();
         this.showLine();
-        element("status").textContent = this.words();
+        element("status").textContent = wordsOf(state, scene);
         element("picture").setAttribute("aria-label", `${this.shape.name || scene.title}, ${state.show}`);
         clearTimeout(this.addressTimer);
         this.addressTimer = setTimeout(() => history.replaceState(null, "", hashOf(this.state, scene)), 500);
@@ -219,7 +219,7 @@ class Page {
                 state.chosen = i;
             }, { role: "radio", title: `Light ${i + 1}` });
             const colour = document.createElement("i");
-            colour.style.background = this.colourOf(light);
+            colour.style.background = colourOf(light, this.scene.white);
             button.append(colour);
             button.setAttribute("aria-label", `Light ${i + 1}`);
             button.setAttribute("aria-checked", i === state.chosen);
@@ -232,8 +232,8 @@ class Page {
         more.disabled = state.lights.length >= kMostLights;
         fewer.disabled = state.lights.length < 2;
         buttons.append(more, fewer);
-        element("colour").value = this.colourOf(this.light);
-        element("strength").value = Math.log2(Math.max(this.strengthOf(this.light), 1e-6));
+        element("colour").value = colourOf(this.light, this.scene.white);
+        element("strength").value = Math.log2(Math.max(strengthOf(this.light, this.scene.white), 1e-6));
         element("nearness").value = this.light.nearness;
     }
 
@@ -248,23 +248,6 @@ class Page {
         }
     }
 
-    words() {
-        const { state, scene } = this, [x, y, z] = this.light.direction;
-        const degrees = radians => Math.round(radians * 180 / Math.PI);
-        const polar = degrees(Math.acos(Math.min(1, Math.max(-1, z))));
-        const clock = (Math.round(6 * Math.atan2(x, y) / Math.PI) + 12) % 12 || 12;
-        let text = state.lights.length > 1 ? `Light ${state.chosen + 1} of ${state.lights.length}: ` : "Light: ";
-        text += polar < 1 ? "from the camera" : `${polar}° from the camera, at ${clock} o'clock`;
-        text += state.photograph !== null ? `, as in photograph ${this.photographName()}` : "";
-        text += state.show === "coverage" ? ". Stripes: where the material is expected to be off by more than 20 %" : "";
-        text += this.shape.azimuths && !this.shape.arrays.horizons ? ". Cast shadows are still being found" : "";
-        return `${text}.`;
-    }
-
-    photographName() {
-        return this.scene.lights[this.scene.photographs[this.state.photograph].light].photograph;
-    }
-
     // To a state as an address has it; what is on the canvas shows it at once.
     go(hash) {
         this.state = stateOf(hash, this.scene);
@@ -274,18 +257,6 @@ class Page {
 
     // ---- lights
 
-    // Of an irradiance over the white one's, its largest channel: strength; what remains: the colour.
-    strengthOf(light) {
-        return Math.max(...light.irradiance.map((value, c) => value / this.scene.white[c]));
-    }
-
-    colourOf(light) {
-        const strength = this.strengthOf(light) || 1;
-        const code = value => Math.round(255 * (value <= 0.0031308 ? 12.92 * value : 1.055 * value ** (1 / 2.4) - 0.055));
-        const codes = light.irradiance.map((value, c) => code(Math.min(1, value / this.scene.white[c] / strength)));
-        return "#" + codes.map(value => value.toString(16).padStart(2, "0")).join("");
-    }
-
     setLight(changes) {
         Object.assign(this.light, changes);
         this.leavePhotograph();
@@ -293,10 +264,7 @@ class Page {
     }
 
     setColour(hex, strength) {
-        const linear = code => code <= 0.04045 ? code / 12.92 : ((code + 0.055) / 1.055) ** 2.4;
-        const colour = [1, 3, 5].map(at => linear(parseInt(hex.slice(at, at + 2), 16) / 255));
-        const most = Math.max(...colour, 1e-6);
-        this.setLight({ irradiance: colour.map((value, c) => strength * this.scene.white[c] * value / most) });
+        this.setLight({ irradiance: irradianceOf(hex, strength, this.scene.white) });
     }
 
     addLight() {
@@ -359,16 +327,14 @@ class Page {
         on("compare", "change", event => this.choose({ compare: event.target.value }));
         on("exposure", "input", event => this.choose({ stops: Number(event.target.value) }));
         on("layer", "change", event => this.choose({ layer: event.target.checked }));
-        on("colour", "input", event => this.setColour(event.target.value, this.strengthOf(this.light)));
+        on("colour", "input", event => this.setColour(event.target.value, strengthOf(this.light, this.scene.white)));
         on("strength", "input", event => this.setColour(element("colour").value, 2 ** Number(event.target.value)));
         on("nearness", "input", event => this.setLight({ nearness: Number(event.target.value) }));
         on("about", "click", () => element("help").showModal());
         on("fit", "click", () => this.choose({ zoom: 0 }));
         on("reset", "click", () => this.choose(openedState(this.scene)));
         on("save", "click", () => this.save());
-        on("picture", "wheel", event => this.wheel(event));
         on("picture", "dblclick", () => this.choose({ zoom: 0 }));
-        on("picture", "contextmenu", event => event.preventDefault());
         this.watchPointers();
         document.addEventListener("keydown", event => this.key(event));
         new ResizeObserver(() => this.changed()).observe(this.canvas);
@@ -380,27 +346,6 @@ class Page {
         });
     }
 
-    // Calls move(event, right, down) with the way of each drag, in CSS pixels.
-    static drags(target, begin, move) {
-        let last = null;
-        target.addEventListener("pointerdown", event => {
-            target.setPointerCapture(event.pointerId);
-            last = event;
-            begin(event);
-        });
-        target.addEventListener("pointermove", event => {
-            if (last && event.pointerId === last.pointerId) {
-                move(event, event.clientX - last.clientX, event.clientY - last.clientY);
-                last = event;
-            }
-        });
-        for (const kind of ["pointerup", "pointercancel"]) {
-            target.addEventListener(kind, () => {
-                last = null;
-            });
-        }
-    }
-
     watchPointers() {
         const ball = element("ball"), line = element("line");
         const point = event => {
@@ -408,43 +353,16 @@ class Page {
             const disc = [2 * (event.clientX - left) / width - 1, 1 - 2 * (event.clientY - top) / width];
             this.setLight({ direction: lightFromBallDisc(disc) });
         };
-        Page.drags(ball, point, point);
-        Page.drags(line, () => {}, event => {
+        watchDrags(ball, point, point);
+        watchDrags(line, () => {}, event => {
             const { left, width } = this.canvas.getBoundingClientRect();
             this.choose({ line: Math.min(Math.max((event.clientX - left) / width, 0), 1) });
         });
-        this.watchPicture();
-    }
-
-    // One finger or the left button moves the light, the right button the picture, two fingers move and zoom.
-    watchPicture() {
-        const down = new Map(), { canvas } = this;
-        canvas.addEventListener("pointerdown", event => {
-            canvas.setPointerCapture(event.pointerId);
-            down.set(event.pointerId, event);
+        watchPicture(this.canvas, {
+            drag: (right, below) => this.drag(right, below),
+            pan: (right, below) => this.pan(right, below),
+            zoom: (factor, x, y) => this.zoom(factor, x, y),
         });
-        canvas.addEventListener("pointermove", event => {
-            const last = down.get(event.pointerId);
-            if (!last) {
-                return;
-            }
-            const right = event.clientX - last.clientX, below = event.clientY - last.clientY;
-            const other = [...down.values()].find(pointer => pointer.pointerId !== event.pointerId);
-            down.set(event.pointerId, event);
-            if (other) {
-                const apart = pointer => Math.hypot(pointer.clientX - other.clientX, pointer.clientY - other.clientY);
-                this.zoom(apart(event) / Math.max(apart(last), 1), (event.clientX + other.clientX) / 2,
-                    (event.clientY + other.clientY) / 2);
-                this.pan(right / 2, below / 2);
-            } else if (event.buttons & 2) {
-                this.pan(right, below);
-            } else {
-                this.drag(right, below);
-            }
-        });
-        for (const kind of ["pointerup", "pointercancel"]) {
-            canvas.addEventListener(kind, event => down.delete(event.pointerId));
-        }
     }
 
     drag(right, below) {
@@ -480,12 +398,6 @@ class Page {
     zoomAboutMiddle(factor) {
         const { left, top, width, height } = this.canvas.getBoundingClientRect();
         this.zoom(factor, left + width / 2, top + height / 2);
-    }
-
-    wheel(event) {
-        event.preventDefault();
-        const lines = event.deltaMode === 1 ? 16 : 1;
-        this.zoom(2 ** (-lines * event.deltaY / 300), event.clientX, event.clientY);
     }
 
     key(event) {

@@ -1,4 +1,4 @@
-// Lights: where a drag takes them, and what a residual layer knows of them (the twin of
+// Lights: where a drag takes them, their colours, and what a residual layer knows of them (the twin of
 // engine/surface/residual_layer.cpp, light_plane.cpp and light_covariance.h). Directions are [x, y, z], unit, x right,
 // y up, z towards the camera.
 "use strict";
@@ -24,6 +24,25 @@ function ballDiscFromLight([x, y, z]) {
 function draggedLight(direction, [right, up]) {
     const [x, y] = ballDiscFromLight(direction);
     return lightFromBallDisc([x + right, y + up]);
+}
+
+// Of an irradiance over the white one's, its largest channel: strength; what remains, as #rrggbb: the colour.
+function strengthOf({ irradiance }, white) {
+    return Math.max(...irradiance.map((value, c) => value / white[c]));
+}
+
+function colourOf(light, white) {
+    const strength = strengthOf(light, white) || 1;
+    const code = value => Math.round(255 * (value <= 0.0031308 ? 12.92 * value : 1.055 * value ** (1 / 2.4) - 0.055));
+    const codes = light.irradiance.map((value, c) => code(Math.min(1, value / white[c] / strength)));
+    return "#" + codes.map(value => value.toString(16).padStart(2, "0")).join("");
+}
+
+function irradianceOf(hex, strength, white) {
+    const linear = code => code <= 0.04045 ? code / 12.92 : ((code + 0.055) / 1.055) ** 2.4;
+    const colour = [1, 3, 5].map(at => linear(parseInt(hex.slice(at, at + 2), 16) / 255));
+    const most = Math.max(...colour, 1e-6);
+    return colour.map((value, c) => strength * white[c] * value / most);
 }
 
 function lightPlanePoint([x, y, z]) {

@@ -115,3 +115,18 @@ function stopsOf(state, scene) {
     const row = scene.stops[state.shape], own = state.shape === 0 ? 1 : 0;
     return row[state.material === null ? 0 : state.material + own];
 }
+
+// What the reader cannot see of it.
+function wordsOf(state, scene) {
+    const shape = scene.shapes[state.shape], [x, y, z] = state.lights[state.chosen].direction;
+    const polar = Math.round(180 / Math.PI * Math.acos(Math.min(1, Math.max(-1, z))));
+    const clock = (Math.round(6 * Math.atan2(x, y) / Math.PI) + 12) % 12 || 12;
+    let text = state.lights.length > 1 ? `Light ${state.chosen + 1} of ${state.lights.length}: ` : "Light: ";
+    text += polar < 1 ? "from the camera" : `${polar}° from the camera, at ${clock} o'clock`;
+    if (state.photograph !== null) {
+        text += `, as in photograph ${scene.lights[scene.photographs[state.photograph].light].photograph}`;
+    }
+    text += state.show === "coverage" ? ". Stripes: where the material is expected to be off by more than 20 %" : "";
+    text += shape.azimuths && !shape.arrays.horizons ? ". Cast shadows are still being found" : "";
+    return `${text}.`;
+}

@@ -167,6 +167,34 @@ hold.write("<p>");
 const hashes = {)" +
            hashes + R"(};
 const say = text => document.body.append(Object.assign(document.createElement("p"), { textContent: text }));
+// What a drag, a pinch, the wheel and two keys do.
+function gestures(inside, page) {
+    const { canvas } = page, before = page.light.direction, told = [];
+    canvas.setPointerCapture = () => {}; // of pointers that no device has
+    page.choose({ zoom: 0 });
+    page.draw();
+    const point = (kind, pointerId, clientX) =>
+        canvas.dispatchEvent(new inside.PointerEvent(kind, { pointerId, clientX, clientY: 100, buttons: 1 }));
+    const grown = act => {
+        const scale = page.frame.scale;
+        act();
+        told.push((page.frame.scale / scale).toFixed(2));
+    };
+    point("pointerdown", 1, 100);
+    point("pointermove", 1, 130);
+    told.push(page.light.direction[0] > before[0] ? "moved" : "still");
+    grown(() => {
+        point("pointerdown", 2, 230);
+        point("pointermove", 2, 330);
+        point("pointerup", 1, 130);
+        point("pointerup", 2, 330);
+    });
+    grown(() => canvas.dispatchEvent(new inside.WheelEvent("wheel", { deltaY: 300, cancelable: true })));
+    for (const key of ["l", "n"]) {
+        canvas.dispatchEvent(new inside.KeyboardEvent("keydown", { key, bubbles: true }));
+    }
+    return `${told.join(" ")} ${page.state.lights.length} ${page.state.show}`;
+}
 async function show(frame) {
     if (!frame.contentWindow.nacrePage) {
         await new Promise(loaded => frame.addEventListener("load", loaded));
@@ -193,6 +221,7 @@ async function show(frame) {
     await back;
     tell(hashes[frame.name][0], "again");
     say(`balls ${frame.name} ${[...page.painter.onDevice.keys()].filter(key => /^ball \d/.test(key)).length} end`);
+    say(`gestures ${frame.name} ${gestures(frame.contentWindow, page)} end`);
     const root = frame.contentDocument.documentElement;
     say(`wider ${frame.name} ${root.scrollWidth > frame.contentWindow.innerWidth} end`);
 }
@@ -382,6 +411,8 @@ TEST_F(Page, BrowserShowsWhatTheTwinAndThePhotographsDo)
     EXPECT_EQ(saidBehind(shown.out, "error "), "");
     for (const auto& [frame, file, width, expected] : frames) {
         EXPECT_EQ(saidBehind(shown.out, "wider " + frame + " "), "false");
+        EXPECT_EQ(saidBehind(shown.out, "gestures " + frame + " "),
+                  fmt::format("moved 2.00 0.50 {} normals", file == "c.html" ? 8 : 2));
         if (file == "c.html") {
             EXPECT_EQ(saidBehind(shown.out, "balls " + frame + " "), "2"); // of the first state's materials
         }
