@@ -5,9 +5,7 @@
 
 #include "engine/files/image.h"
 #include "engine/gpu/direct_frame.h"
-#include "engine/gpu/fours_target.h"
 #include "engine/gpu/pass.h"
-#include "engine/gpu/residual_pass.h"
 #include "engine/scene/ball_size.h"
 
 namespace nacre {
@@ -77,33 +75,6 @@ private:
     int displaySize_ = 0;
     int columns_ = 1;
     size_t drawnLights_ = 0;
-};
-
-// Draws pictures from balls: one lookup a pixel, and what a residual layer adds to it.
-class BallFrame {
-public:
-    explicit BallFrame(const Context& context);
-
-    struct Inputs {
-        const BallCache& balls; // modulated ones where the pixels have albedo factors or there is a layer
-        int materials;
-        int toneCurve;
-        const ResidualPass& residual; // its weights know the exposure
-        int residualFours;            // of components that are added, in fours
-    };
-
-    // Drops what was made for another surface.
-    void reset() { target_.reset(); }
-    // `codes` has kCodeFormat and the size of `pixels`; it is in kDrawnTo.
-    void record(VkCommandBuffer commands, const PixelTextures& pixels, const Inputs& inputs, const Texture& codes);
-
-    VkDeviceSize bytes() const { return target_.bytes(); }
-
-private:
-    const Context& context_;
-    Sampler nearest_;
-    Pipelines pipelines_;
-    FoursTarget target_;
 };
 
 } // namespace nacre

@@ -5,6 +5,7 @@ namespace nacre {
 void Canvas::dropPixels()
 {
     pixels_.reset();
+    ballFrame.dropPixels();
     directFrame.reset();
     isStale = true;
 }
@@ -58,7 +59,7 @@ Image readCodes(const Context& context, const Texture& codes)
     const auto* bytes = static_cast<const uint8_t*>(readback.mapped());
     for (size_t i = 0; i < picture.pixelCount(); ++i) {
         for (size_t c = 0; c < 3; ++c) {
-            picture.values[3 * i + c] = static_cast<float>(bytes[4 * i + c]) / 255.0f;
+            picture.values[3 * i + c] = static_cast<float>(bytes[4 * i + 2 - c]) / 255.0f;
         }
     }
     return picture;

@@ -2,7 +2,7 @@
 #include <functional>
 #include <optional>
 
-#include "engine/gpu/balls.h"
+#include "engine/gpu/ball_frame.h"
 #include "engine/gpu/direct_frame.h"
 #include "engine/gpu/surface_textures.h"
 

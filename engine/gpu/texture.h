@@ -12,7 +12,7 @@ namespace nacre {
 // Four channels a texel:
 inline constexpr VkFormat kFloatFormat = VK_FORMAT_R32G32B32A32_SFLOAT;
 inline constexpr VkFormat kHalfFormat = VK_FORMAT_R16G16B16A16_SFLOAT;
-inline constexpr VkFormat kCodeFormat = VK_FORMAT_R8G8B8A8_UNORM; // codes of the display
+inline constexpr VkFormat kCodeFormat = VK_FORMAT_B8G8R8A8_UNORM; // codes of the display, as windows want them
 // Two channels in [-1, 1].
 inline constexpr VkFormat kPackedNormalFormat = VK_FORMAT_R16G16_SNORM;
 

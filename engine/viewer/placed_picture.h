@@ -22,9 +22,14 @@ struct PlacedPicture {
 // All of the texture stretched over `place`, as far as it lies in `area`.
 PlacedPicture placedPicture(const Texture& texture, const Area& place, const Area& area);
 
+struct WindowImage {
+    VkImage image;
+    VkFormat format;
+};
+
 // Clears the image to `background` (codes in [0,1]) and copies the pictures in order; from any state to
 // VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL.
-void recordPictures(VkCommandBuffer commands, VkImage image, std::span<const PlacedPicture> pictures,
+void recordPictures(VkCommandBuffer commands, const WindowImage& window, std::span<const PlacedPicture> pictures,
                     const glm::vec3& background);
 
 } // namespace nacre

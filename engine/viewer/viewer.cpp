@@ -377,7 +377,7 @@ void ViewerWindow::drawFrame()
     describePanels(stage);
     ui_->end();
     const bool wasShown = swapchain_.show([&](VkCommandBuffer commands, size_t image) {
-        recordPictures(commands, swapchain_.image(image), placed_, kBackground);
+        recordPictures(commands, {swapchain_.image(image), swapchain_.format()}, placed_, kBackground);
         ui_->record(commands, swapchain_, image);
     });
     if (!wasShown) {

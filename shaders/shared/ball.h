@@ -76,6 +76,20 @@ NACRE_FN vec3 shareInMean(vec3 irradiance, float nDotL)
     return irradiance * max(nDotL, 0.001f);
 }
 
+// A texel of balls that lie side by side, in one number; none where a pixel shows nothing. Its texel is one of a ball all
+// the same, which is read and not shown.
+const uint kNoBallPlace = 0x80000000u;
+
+NACRE_FN uint packedBallPlace(ivec2 texel)
+{
+    return uint(texel.x) | uint(texel.y) << 16;
+}
+
+NACRE_FN ivec2 ballTexelOfPlace(uint place)
+{
+    return ivec2(int(place & 0xFFFFu), int(place >> 16 & 0x7FFFu));
+}
+
 // Texture coordinates of the same place in a ball of another size.
 NACRE_FN vec2 resizedBallTexel(vec2 texel, float size, float otherSize)
 {

@@ -19,6 +19,7 @@ const int kBindingResidualWeights = 7; // texel buffer: ResidualWeights
 
 const int kBindingPlaces = 8; // sampled 2D: xyz the pixel's point in widths of the object, see near_light.h and lens.h
 const int kBindingCover = 9;  // sampled 2D array of one layer: share of the pixel that the object covers, see zoom.h
+const int kBindingBallPlaces = 10; // sampled 2D of integers: where four pixels look in the balls, see ball.h
 
 // Lights of one draw. The loop over them is unrolled, so that their fields are loaded once for all pixels.
 const int kLightsPerGroup = 4;
@@ -54,13 +55,17 @@ struct DirectConstants {
 // Of shaders that draw several pixels at once: codes, side by side in a texel of the target.
 const int kPixelsPerTexel = 4;
 
-// Of ball.frag: balls of one size lie side by side in one texture, material 0 at the top left.
-struct BallConstants {
+// Of ball_places.frag: balls of one size lie side by side in one texture, material 0 at the top left.
+struct BallPlacesConstants {
     int size;      // texels across one ball
-    float columns; // balls side by side
+    int columns;   // balls side by side
     int materials; // balls in all
-    int firstRow;  // of the picture, in the target's row 0
     int width;     // pixels, of the picture
+};
+
+struct BallConstants {
+    int firstRow; // of the picture, in the target's row 0
+    int width;    // pixels, of the picture
 };
 
 struct FloorConstants {

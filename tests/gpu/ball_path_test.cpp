@@ -222,28 +222,6 @@ TEST_F(BallPathTest, FourMaterialsAt4kFitIntoTheMemory)
     std::printf("  %llu MiB on the device\n", static_cast<unsigned long long>(renderer.deviceBytes() >> 20));
 }
 
-// The codes of a texture that is to be copied from.
-Image readBack(const Context& context, const Texture& texture)
-{
-    const VkExtent3D extent = texture.extent();
-    const Buffer buffer(context, VkDeviceSize{4} * extent.width * extent.height, VK_BUFFER_USAGE_TRANSFER_DST_BIT);
-    context.run([&](VkCommandBuffer commands) {
-        VkBufferImageCopy copy{};
-        copy.imageSubresource.aspectMask = VK_IMAGE_ASPECT_COLOR_BIT;
-        copy.imageSubresource.layerCount = 1;
-        copy.imageExtent = extent;
-        vkCmdCopyImageToBuffer(commands, texture.image(), kCopiedFrom.layout, buffer.get(), 1, &copy);
-        makeVisibleToHost(commands, buffer);
-    });
-    Image picture(static_cast<int>(extent.width), static_cast<int>(extent.height), 3);
-    const auto* codes = static_cast<const uint8_t*>(buffer.mapped());
-    for (size_t i = 0; i < picture.values.size(); ++i) {
-        const size_t code = 4 * (i / 3) + i % 3;
-        picture.values[i] = static_cast<float>(codes[code]) / 255.0f;
-    }
-    return picture;
-}
-
 TEST_F(BallPathTest, TheBallOfAMaterialIsAPictureOfASphere)
 {
     constexpr int kSide = 60;
@@ -259,7 +237,7 @@ TEST_F(BallPathTest, TheBallOfAMaterialIsAPictureOfASphere)
                 const Texture* ball = renderer.drawMaterialBall(material, kSide);
                 ASSERT_NE(ball, nullptr);
                 // Balls of several materials hold halves of radiance, a part in 2048, which exposure brightens.
-                EXPECT_EQ(codeDifference(readBack(*context, *ball), alone.picture(), 2).share(), 0);
+                EXPECT_EQ(codeDifference(readCodes(*context, *ball), alone.picture(), 2).share(), 0);
             }
         }
         renderer.setPath(RenderPath::direct);
