@@ -72,7 +72,7 @@ void BallFrame::record(VkCommandBuffer commands, const PixelTextures& pixels, co
                                      textureInput(kBindingAlbedo, nearest_, albedoOrAny(pixels)),
                                      textureInput(kBindingInput, nearest_, inputs.balls.displayBalls()), layer[0],
                                      layer[1]};
-    target_.record(commands, codes, [&](int firstRow) {
+    target_.record(commands, codes, pixels.shown, [&](int firstRow) {
         draw(context_, commands, fromBalls, shaderInputs,
              bytesOf(BallConstants{.firstRow = firstRow, .width = static_cast<int>(codes.extent().width)}));
     });

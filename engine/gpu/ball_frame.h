@@ -23,7 +23,7 @@ public:
     // Drops what was made for a picture of another size.
     void reset();
     // `codes` has kCodeFormat and the size of `pixels`, which are the same from one dropPixels to the next; it is in
-    // kDrawnTo.
+    // kDrawnTo. Of its pixels only those of pixels.shown, and black ones beside them, are drawn.
     void record(VkCommandBuffer commands, const PixelTextures& pixels, const Inputs& inputs, const Texture& codes);
 
     VkDeviceSize bytes() const { return target_.bytes() + places_.bytes(); }

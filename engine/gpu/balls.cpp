@@ -89,31 +89,39 @@ void BallCache::setMaterials(std::span<const BallSize> sizes, bool modulated)
     const auto side = static_cast<uint32_t>(displaySize_);
     display_ = makeTarget(context_, {columns_ * side, rows * side, 1}, modulated ? kHalfFormat : kCodeFormat);
     keptBytes_ = leastBytes(sizes, modulated, 0);
-    chunkIsStale_.assign(chunkCount(), 1);
+    chunkIsStale_.assign(chunks_.size(), 1);
     sumIsStale_ = displayIsStale_ = true;
 }
 
-void BallCache::setLights(std::span<const Light> lights)
+std::span<const Light> BallCache::lightsOf(const LightRange& chunk) const
 {
-    const size_t chunksBefore = chunkCount();
-    for (size_t first = 0; first < std::max(lights.size(), lights_.size()); first += kLightsPerChunk) {
-        const auto chunkOf = [&](std::span<const Light> all) {
-            const size_t from = std::min(first, all.size());
-            return all.subspan(from, std::min(kLightsPerChunk, all.size() - from));
-        };
-        const auto before = chunkOf(lights_), now = chunkOf(lights);
-        if (!std::equal(before.begin(), before.end(), now.begin(), now.end())) {
-            chunkIsStale_.resize(std::max(chunkIsStale_.size(), first / kLightsPerChunk + 1), 1);
-            chunkIsStale_[first / kLightsPerChunk] = 1;
-            sumIsStale_ = true;
+    return std::span(lights_).subspan(chunk.first, chunk.last - chunk.first);
+}
+
+void BallCache::setLights(std::span<const Light> lights, std::span<const LightRange> ranges)
+{
+    std::vector<LightRange> chunks;
+    for (const LightRange& range : ranges) {
+        for (size_t first = range.first; first < range.last; first += kLightsPerChunk) {
+            chunks.push_back({first, std::min(first + kLightsPerChunk, range.last)});
         }
     }
-    const bool keptBefore = keepsChunks(chunksBefore);
-    lights_.assign(lights.begin(), lights.end());
-    chunkIsStale_.resize(chunkCount(), 1);
-    if (!keptBefore || !keepsChunks(chunkCount())) {
-        std::fill(chunkIsStale_.begin(), chunkIsStale_.end(), uint8_t{sumIsStale_});
+    std::vector<uint8_t> isStale(chunks.size(), 1);
+    bool isOther = chunks.size() != chunks_.size();
+    for (size_t i = 0; i < std::min(chunks.size(), chunks_.size()); ++i) {
+        const auto before = lightsOf(chunks_[i]),
+                   now = lights.subspan(chunks[i].first, chunks[i].last - chunks[i].first);
+        const bool isSame = std::equal(before.begin(), before.end(), now.begin(), now.end());
+        isStale[i] = !isSame || chunkIsStale_[i];
+        isOther = isOther || !isSame;
     }
+    sumIsStale_ = sumIsStale_ || isOther;
+    if (!keepsChunks(chunks_.size()) || !keepsChunks(chunks.size())) {
+        std::fill(isStale.begin(), isStale.end(), uint8_t{sumIsStale_});
+    }
+    lights_.assign(lights.begin(), lights.end());
+    chunks_ = std::move(chunks);
+    chunkIsStale_ = std::move(isStale);
 }
 
 void BallCache::setDisplay(const Display& display)
@@ -157,14 +165,14 @@ bool BallCache::prepare()
     if (!sumIsStale_ && !displayIsStale_) {
         return false;
     }
-    const bool keeps = keepsChunks(chunkCount());
+    const bool keeps = keepsChunks(chunks_.size());
     for (MaterialBalls& material : materials_) {
         normalsOfBall(material.size);
-        material.chunks.resize(keeps ? std::min(material.chunks.size(), chunkCount()) : 0);
-        while (keeps && material.chunks.size() < chunkCount()) {
+        material.chunks.resize(keeps ? std::min(material.chunks.size(), chunks_.size()) : 0);
+        while (keeps && material.chunks.size() < chunks_.size()) {
             material.chunks.push_back(makeTarget(context_, squareExtent(material.size), kFloatFormat));
         }
-        if (!keeps && chunkCount() > 1 && !scratch_.contains(material.size)) {
+        if (!keeps && chunks_.size() > 1 && !scratch_.contains(material.size)) {
             scratch_.emplace(material.size, makeTarget(context_, squareExtent(material.size), kFloatFormat));
         }
     }
@@ -186,7 +194,7 @@ void BallCache::record(VkCommandBuffer commands, std::span<const TableTexture> t
 void BallCache::recordChunk(VkCommandBuffer commands, const Texture& target, size_t material, const TableTexture& table,
                             const LightGroups& lights, size_t chunk)
 {
-    const size_t first = chunk * kLightsPerChunk, last = std::min(first + kLightsPerChunk, lights_.size());
+    const auto [first, last] = chunks_[chunk];
     imageBarrier(commands, target.image(), kDiscarded, kDrawnTo);
     beginRendering(commands, target, Load::clear);
     direct_.record(commands, {normalsOfBall(materials_[material].size), nullptr, table, 0}, lights, first, last);
@@ -199,11 +207,11 @@ void BallCache::recordSum(VkCommandBuffer commands, size_t material, const Table
                           const LightGroups& lights)
 {
     MaterialBalls& balls = materials_[material];
-    if (chunkCount() <= 1) {
+    if (chunks_.size() <= 1) {
         recordChunk(commands, balls.sum, material, table, lights, 0);
         return;
     }
-    for (size_t chunk = 0; chunk < chunkCount(); ++chunk) {
+    for (size_t chunk = 0; chunk < chunks_.size(); ++chunk) {
         const Texture& picture = balls.chunks.empty() ? scratch_.at(balls.size) : balls.chunks[chunk];
         if (balls.chunks.empty() || chunkIsStale_[chunk]) {
             recordChunk(commands, picture, material, table, lights, chunk);

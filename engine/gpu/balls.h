@@ -5,14 +5,15 @@
 
 #include "engine/files/image.h"
 #include "engine/gpu/direct_frame.h"
+#include "engine/gpu/moving_lights.h"
 #include "engine/gpu/pass.h"
 #include "engine/scene/ball_size.h"
 
 namespace nacre {
 
-// The balls of a surface's materials. Radiance balls are drawn in chunks of kLightsPerChunk lights, summed in the
-// chunks' order: as long as the chunks' own balls fit into the cache, a light that moves costs its chunk alone, and the
-// sum is the same bytes as a fresh one. Display balls are made from the sums.
+// The balls of a surface's materials. Radiance balls are drawn in chunks of at most kLightsPerChunk lights, summed in
+// the chunks' order: as long as the chunks' own balls fit into the cache, a light that moves costs its chunk alone, and
+// the sum is the same bytes as a fresh one. Display balls are made from the sums.
 class BallCache {
 public:
     static constexpr size_t kLightsPerChunk = 16;
@@ -24,8 +25,9 @@ public:
 
     // Drops all balls. `modulated`: pixels have labels or albedo factors.
     void setMaterials(std::span<const BallSize> sizes, bool modulated);
-    // Chunks whose lights differ from the last call's are to be drawn again.
-    void setLights(std::span<const Light> lights);
+    // Chunks of which the last call knew no like in their place are to be drawn again. No chunk reaches across a
+    // border between two ranges; those begin at multiples of kLightsPerGroup.
+    void setLights(std::span<const Light> lights, std::span<const LightRange> ranges);
     void setDisplay(const Display& display);
 
     // Makes what record() needs; false where nothing has changed.
@@ -47,12 +49,12 @@ private:
     };
 
     const Texture& normalsOfBall(int size);
+    std::span<const Light> lightsOf(const LightRange& chunk) const;
     bool keepsChunks(size_t count) const;
     void recordChunk(VkCommandBuffer commands, const Texture& target, size_t material, const TableTexture& table,
                      const LightGroups& lights, size_t chunk);
     void recordSum(VkCommandBuffer commands, size_t material, const TableTexture& table, const LightGroups& lights);
     void recordDisplay(VkCommandBuffer commands);
-    size_t chunkCount() const { return (lights_.size() + kLightsPerChunk - 1) / kLightsPerChunk; }
 
     const Context& context_;
     DirectPass& direct_;
@@ -65,6 +67,7 @@ private:
     std::map<int, Texture> scratch_;         // where chunks are not kept, by size
     std::vector<MaterialBalls> materials_;
     std::vector<Light> lights_;
+    std::vector<LightRange> chunks_;
     std::vector<uint8_t> chunkIsStale_; // one a chunk
     bool sumIsStale_ = true;
     bool displayIsStale_ = true;

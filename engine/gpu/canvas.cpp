@@ -1,5 +1,7 @@
 #include "engine/gpu/canvas.h"
 
+#include <cstring>
+
 namespace nacre {
 
 void Canvas::dropPixels()
@@ -25,15 +27,24 @@ const PixelTextures& Canvas::pixels(const Surface& surface, bool plain)
     return *pixels_;
 }
 
-void Canvas::draw(const Surface& surface, const std::function<void(VkCommandBuffer, const Texture&)>& record)
+void Canvas::draw(Draws draws, const Surface& surface,
+                  const std::function<void(VkCommandBuffer, const Texture&)>& record)
 {
-    const NormalMap& normals = surface.normals;
-    if (!codes_) {
-        codes_ = makeTarget(context_, {static_cast<uint32_t>(normals.width), static_cast<uint32_t>(normals.height), 1},
-                            kCodeFormat);
+    const VkExtent2D extent{static_cast<uint32_t>(surface.normals.width),
+                            static_cast<uint32_t>(surface.normals.height)};
+    const bool isNew = !codes_;
+    if (isNew) {
+        codes_ = makeTarget(context_, {extent.width, extent.height, 1}, kCodeFormat);
     }
+    const VkRect2D part = draws == Draws::whatIsShown ? pixels_->shown : VkRect2D{.offset = {}, .extent = extent};
+    const bool isBlackBeside = !isNew && std::memcmp(&part, &drawn_, sizeof part) == 0;
+    drawn_ = part;
     context_.run([&](VkCommandBuffer commands) {
-        imageBarrier(commands, codes_->image(), kDiscarded, kDrawnTo);
+        imageBarrier(commands, codes_->image(), isBlackBeside ? kCopiedFrom : kDiscarded, kDrawnTo);
+        if (!isBlackBeside) {
+            beginRendering(commands, *codes_, Load::clear);
+            vkCmdEndRendering(commands);
+        }
         record(commands, *codes_);
         imageBarrier(commands, codes_->image(), kDrawnTo, kCopiedFrom);
     });

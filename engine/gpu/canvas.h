@@ -21,8 +21,12 @@ public:
     void dropPicture();
     const PixelTextures& pixels(const Surface& surface, bool plain);
     const Texture& codes() const { return *codes_; } // once they were drawn
-    // Codes from black, into a target in kDrawnTo that is in kCopiedFrom afterwards.
-    void draw(const Surface& surface, const std::function<void(VkCommandBuffer, const Texture& codes)>& record);
+    // Codes, into a target in kDrawnTo that is in kCopiedFrom afterwards.
+    enum class Draws { everything, whatIsShown }; // and leaves pixels beside what is shown black
+    void draw(Draws draws, const Surface& surface,
+              const std::function<void(VkCommandBuffer, const Texture& codes)>& record);
+    // Pixels that may be other than black.
+    const VkRect2D& drawn() const { return drawn_; }
 
     VkDeviceSize bytes() const;
 
@@ -34,6 +38,7 @@ private:
     const Context& context_;
     std::optional<PixelTextures> pixels_; // compact
     std::optional<Texture> codes_;        // kCodeFormat
+    VkRect2D drawn_{};
 };
 
 // Codes (kCodeFormat, in kCopiedFrom) in [0,1], n/255; 3 channels.

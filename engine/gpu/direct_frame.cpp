@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "copy_frag.h"
 #include "direct_frag.h"
 #include "display_frag.h"
 #include "engine/surface/object_places.h"
@@ -153,12 +154,17 @@ DirectFrame::DirectFrame(const Context& context, DirectPass& direct)
       encoders_(context, {.fragmentShader = display_frag,
                           .bindings = kDisplayBindings,
                           .pushConstantBytes = sizeof(DisplayConstants),
-                          .targetFormat = kCodeFormat})
+                          .targetFormat = kCodeFormat}),
+      add_(context, {.fragmentShader = copy_frag,
+                     .bindings = kDisplayBindings,
+                     .targetFormat = kFloatFormat,
+                     .blend = Blend::add})
 {
 }
 
 void DirectFrame::reset()
 {
+    still_ = {};
     band_ = {};
     readback_ = {};
     whole_ = {};
@@ -175,25 +181,56 @@ int DirectFrame::rowsAtOnce(VkExtent3D picture)
     return static_cast<int>(band_.extent().height);
 }
 
-// One draw per material and group of lights; what they write adds up. `rows` are the target's, its offset the
-// surface's.
-void DirectFrame::recordRows(VkCommandBuffer commands, const PixelTextures& pixels, const Inputs& inputs, VkRect2D rows,
-                             bool coverage)
+// One draw per material and group of lights; what they write adds up. Row 0 of the target is the surface's `firstRow`.
+void DirectFrame::recordLights(VkCommandBuffer commands, const PixelTextures& pixels, const Inputs& inputs,
+                               const LightRange& lights, int firstRow, bool coverage)
 {
-    imageBarrier(commands, band_.image(), kDiscarded, kDrawnTo);
-    beginRendering(commands, band_, Load::clear, {.offset = {}, .extent = rows.extent});
     for (size_t material = 0; material < inputs.tables.size(); ++material) {
         direct_.record(commands,
                        {.normals = pixels.normals,
                         .albedo = inputs.plain ? nullptr : &pixels.albedo,
                         .table = inputs.tables[material],
                         .material = static_cast<int>(material),
-                        .firstRow = rows.offset.y,
+                        .firstRow = firstRow,
                         .coverage = coverage,
                         .horizon = pixels.horizon.bytes() > 0 ? &pixels.horizon : nullptr,
                         .places = pixels.places.bytes() > 0 ? &pixels.places : nullptr},
-                       inputs.lights, 0, inputs.lights.lightCount());
+                       inputs.lights, lights.first, lights.last);
     }
+}
+
+void DirectFrame::recordStill(VkCommandBuffer commands, const PixelTextures& pixels, const Inputs& inputs,
+                              bool coverage)
+{
+    const std::span<const Light> lights = inputs.lights.lights().subspan(0, inputs.still.last);
+    Kept wanted{{lights.begin(), lights.end()}, inputs.lights.viewpoint(), coverage};
+    if (still_.bytes() > 0 && wanted == kept_) {
+        return;
+    }
+    if (still_.bytes() == 0) {
+        still_ = makeTarget(context_, band_.extent(), kFloatFormat);
+    }
+    kept_ = std::move(wanted);
+    imageBarrier(commands, still_.image(), kDiscarded, kDrawnTo);
+    beginRendering(commands, still_, Load::clear);
+    recordLights(commands, pixels, inputs, inputs.still, 0, coverage);
+    vkCmdEndRendering(commands);
+    imageBarrier(commands, still_.image(), kDrawnTo, kSampled);
+}
+
+// `rows` are the target's, its offset the surface's.
+void DirectFrame::recordRows(VkCommandBuffer commands, const PixelTextures& pixels, const Inputs& inputs, VkRect2D rows,
+                             bool coverage, bool fromStill)
+{
+    imageBarrier(commands, band_.image(), kDiscarded, kDrawnTo);
+    beginRendering(commands, band_, Load::clear, {.offset = {}, .extent = rows.extent});
+    if (fromStill) {
+        const std::array kept = {textureInput(kBindingInput, nearest_, still_)};
+        draw(context_, commands, add_, kept, {});
+    } else {
+        recordLights(commands, pixels, inputs, inputs.still, rows.offset.y, coverage);
+    }
+    recordLights(commands, pixels, inputs, inputs.moved, rows.offset.y, coverage);
     if (inputs.residual) {
         inputs.residual->record(commands, pixels, static_cast<int>(inputs.tables.size()), rows.offset.y);
     }
@@ -206,10 +243,16 @@ void DirectFrame::recordPicture(VkCommandBuffer commands, const PixelTextures& p
     const Pipeline& encode = encoders_.with({look.hatched, look.display.toneCurve});
     const VkExtent3D size = codes.extent();
     const int height = static_cast<int>(size.height), atOnce = rowsAtOnce(size);
+    const bool keeps = inputs.still.last > 0 && atOnce >= height;
+    if (keeps) {
+        recordStill(commands, pixels, inputs, look.hatched);
+    } else {
+        still_ = {};
+    }
     for (int first = 0; first < height; first += atOnce) {
         const VkRect2D rows{.offset = {0, first},
                             .extent = {size.width, static_cast<uint32_t>(std::min(atOnce, height - first))}};
-        recordRows(commands, pixels, inputs, rows, look.hatched);
+        recordRows(commands, pixels, inputs, rows, look.hatched, keeps);
         imageBarrier(commands, band_.image(), kDrawnTo, kSampled);
         beginRendering(commands, codes, Load::clear, rows);
         const std::array shaderInputs = {textureInput(kBindingInput, nearest_, band_)};
@@ -232,7 +275,7 @@ void DirectFrame::readRows(const Surface& pixels, const Inputs& inputs, Frame& f
     }
     const VkRect2D rows{.offset = {}, .extent = {band_.extent().width, static_cast<uint32_t>(count)}};
     context_.run([&](VkCommandBuffer commands) {
-        recordRows(commands, isWhole ? whole_ : part, inputs, rows, false);
+        recordRows(commands, isWhole ? whole_ : part, inputs, rows, false, false);
         imageBarrier(commands, band_.image(), kDrawnTo, kCopiedFrom);
         const VkBufferImageCopy copy{.imageSubresource = {.aspectMask = VK_IMAGE_ASPECT_COLOR_BIT, .layerCount = 1},
                                      .imageExtent = {rows.extent.width, rows.extent.height, 1}};
@@ -258,7 +301,7 @@ Frame DirectFrame::radiance(const Surface& pixels, const Inputs& inputs)
 
 VkDeviceSize DirectFrame::bytes() const
 {
-    return band_.bytes() + readback_.bytes() + whole_.bytes();
+    return band_.bytes() + still_.bytes() + readback_.bytes() + whole_.bytes();
 }
 
 } // namespace nacre

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "engine/files/image.h"
+#include "engine/gpu/moving_lights.h"
 #include "engine/gpu/pass.h"
 #include "engine/gpu/residual_pass.h"
 #include "engine/gpu/surface_textures.h"
@@ -67,6 +68,8 @@ public:
     struct Inputs {
         std::span<const TableTexture> tables;
         const LightGroups& lights;
+        LightRange still;       // whose radiance is kept from one picture to the next; empty: none is
+        LightRange moved;       // the others
         bool plain;             // isPlain of the surface
         ResidualPass* residual; // null: nothing is added
     };
@@ -86,16 +89,32 @@ public:
     VkDeviceSize bytes() const;
 
 private:
+    // What the kept radiance depends on beside the pixels.
+    struct Kept {
+        std::vector<Light> lights;
+        glm::vec4 viewpoint{0};
+        bool coverage = false;
+        bool operator==(const Kept&) const = default;
+    };
+
     // Of the band, which is made where it is missing.
     int rowsAtOnce(VkExtent3D picture);
+    void recordLights(VkCommandBuffer commands, const PixelTextures& pixels, const Inputs& inputs,
+                      const LightRange& lights, int firstRow, bool coverage);
+    // Radiance of the lights that stay, in still_.
+    void recordStill(VkCommandBuffer commands, const PixelTextures& pixels, const Inputs& inputs, bool coverage);
+    // All of the radiance, in the band; of the lights that stay as still_ has it where that is asked for.
     void recordRows(VkCommandBuffer commands, const PixelTextures& pixels, const Inputs& inputs, VkRect2D rows,
-                    bool coverage);
+                    bool coverage, bool fromStill);
     void readRows(const Surface& pixels, const Inputs& inputs, Frame& frame, int first, int count);
 
     const Context& context_;
     DirectPass& direct_;
     Sampler nearest_;
     Pipelines encoders_;
+    Pipeline add_;
+    Texture still_; // in kSampled; empty where nothing is kept
+    Kept kept_;     // in it
     Texture band_;
     Buffer readback_;     // of a band
     PixelTextures whole_; // 32-bit inputs, where one band holds the surface

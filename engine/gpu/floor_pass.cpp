@@ -34,9 +34,10 @@ void FloorPass::draw()
 {
     const std::array inputs = {textureInput(kBindingNormals, nearest_, pixels_.normals),
                                textureInput(kBindingAlbedo, nearest_, albedoOrAny(pixels_))};
+    const VkRect2D whole{.offset = {}, .extent = {codes_.extent().width, codes_.extent().height}};
     context_.run([&](VkCommandBuffer commands) {
         imageBarrier(commands, codes_.image(), kDiscarded, kDrawnTo);
-        target_.record(commands, codes_, [&](int firstRow) {
+        target_.record(commands, codes_, whole, [&](int firstRow) {
             nacre::draw(
                 context_, commands, pipeline_, inputs,
                 bytesOf(FloorConstants{.firstRow = firstRow, .width = static_cast<int>(codes_.extent().width)}));

@@ -32,36 +32,49 @@ void FoursTarget::makeBand(VkExtent3D picture)
 }
 
 // An image of four pixels a texel and one of a pixel a texel are the same bytes, but are only copied through a buffer.
-void FoursTarget::copyRows(VkCommandBuffer commands, const Texture& codes, int first, uint32_t count)
+// `texels` are the band's, its row 0 the picture's row `first`.
+void FoursTarget::copyRows(VkCommandBuffer commands, const Texture& codes, const VkRect2D& texels, int first)
 {
     const VkImageSubresourceLayers all{.aspectMask = VK_IMAGE_ASPECT_COLOR_BIT, .layerCount = 1};
-    const uint32_t texels = band_.extent().width;
+    const uint32_t left = kPixelsPerTexel * static_cast<uint32_t>(texels.offset.x);
+    const uint32_t pixels = kPixelsPerTexel * texels.extent.width;
     imageBarrier(commands, band_.image(), kDrawnTo, kCopiedFrom);
-    const VkBufferImageCopy out{.imageSubresource = all, .imageExtent = {texels, count, 1}};
+    const VkBufferImageCopy out{.imageSubresource = all,
+                                .imageOffset = {texels.offset.x, 0, 0},
+                                .imageExtent = {texels.extent.width, texels.extent.height, 1}};
     vkCmdCopyImageToBuffer(commands, band_.image(), kCopiedFrom.layout, copied_.get(), 1, &out);
     makeVisibleToDevice(commands, copied_);
-    const VkBufferImageCopy in{.bufferRowLength = kPixelsPerTexel * texels,
+    const VkBufferImageCopy in{.bufferRowLength = pixels,
                                .imageSubresource = all,
-                               .imageOffset = {0, first, 0},
-                               .imageExtent = {codes.extent().width, count, 1}};
+                               .imageOffset = {static_cast<int32_t>(left), first, 0},
+                               .imageExtent = {std::min(pixels, codes.extent().width - left), texels.extent.height, 1}};
     vkCmdCopyBufferToImage(commands, copied_.get(), codes.image(), kCopiedTo.layout, 1, &in);
     makeWritable(commands, copied_);
 }
 
-void FoursTarget::record(VkCommandBuffer commands, const Texture& codes, const std::function<void(int)>& drawRows)
+void FoursTarget::record(VkCommandBuffer commands, const Texture& codes, const VkRect2D& part,
+                         const std::function<void(int)>& drawRows)
 {
+    if (part.extent.width == 0) {
+        return;
+    }
     if (band_.bytes() == 0) {
         makeBand(codes.extent());
     }
-    const VkExtent3D band = band_.extent();
+    const int left = part.offset.x / kPixelsPerTexel;
+    const int right = (part.offset.x + static_cast<int>(part.extent.width) + kPixelsPerTexel - 1) / kPixelsPerTexel;
+    const int end = part.offset.y + static_cast<int>(part.extent.height);
+    const int rows = static_cast<int>(band_.extent().height);
     imageBarrier(commands, codes.image(), kDrawnTo, kCopiedTo);
-    for (uint32_t first = 0; first < codes.extent().height; first += band.height) {
-        const uint32_t count = std::min(band.height, codes.extent().height - first);
+    for (int first = part.offset.y; first < end; first += rows) {
+        const VkRect2D texels{
+            .offset = {left, 0},
+            .extent = {static_cast<uint32_t>(right - left), static_cast<uint32_t>(std::min(rows, end - first))}};
         imageBarrier(commands, band_.image(), kCopied, kDrawnTo);
-        beginRendering(commands, band_, Load::clear, {.offset = {}, .extent = {band.width, count}});
-        drawRows(static_cast<int>(first));
+        beginRendering(commands, band_, Load::clear, texels);
+        drawRows(first);
         vkCmdEndRendering(commands);
-        copyRows(commands, codes, static_cast<int>(first), count);
+        copyRows(commands, codes, texels, first);
     }
     imageBarrier(commands, codes.image(), kCopiedTo, kDrawnTo);
 }

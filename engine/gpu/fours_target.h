@@ -17,14 +17,15 @@ public:
     // Drops what was made for a picture of another size.
     void reset();
     // Of kIntegersFormat. `drawRows` is called with the first row of each band, while the band is being rendered to.
-    // `codes` has kCodeFormat; it is in kDrawnTo.
-    void record(VkCommandBuffer commands, const Texture& codes, const std::function<void(int)>& drawRows);
+    // `codes` has kCodeFormat; it is in kDrawnTo. Of its pixels only those of `part`, and some beside them, are drawn.
+    void record(VkCommandBuffer commands, const Texture& codes, const VkRect2D& part,
+                const std::function<void(int)>& drawRows);
 
     VkDeviceSize bytes() const { return band_.bytes() + copied_.bytes(); }
 
 private:
     void makeBand(VkExtent3D picture);
-    void copyRows(VkCommandBuffer commands, const Texture& codes, int first, uint32_t count);
+    void copyRows(VkCommandBuffer commands, const Texture& codes, const VkRect2D& texels, int first);
 
     const Context& context_;
     Texture band_;

@@ -10,17 +10,11 @@
 #include "engine/scene/scene_residual.h"
 #include "engine/surface/object_places.h"
 #include "engine/surface/surface.h"
-#include "false_colour_frag.h"
-#include "shared/layout.h"
 
 namespace nacre {
 namespace {
 
 constexpr float kMiddleGrey = 0.2140f; // linear, of code 0.5: what a layer by itself is drawn about
-
-constexpr std::array kFalseColourBindings = {ShaderBinding{kBindingNormals, kTextureInput},
-                                             ShaderBinding{kBindingAlbedo, kTextureInput}};
-static_assert(kConstantModulated == 0 && kConstantShow == 1);
 
 bool dependsOnLights(Show show)
 {
@@ -36,13 +30,8 @@ bool dependsOnDisplay(Show show)
 
 Renderer::Renderer(const Context& context, VkDeviceSize cacheBytes)
     : context_(context), direct_(context), residualPass_(context), balls_(context, direct_, cacheBytes),
-      cacheBytes_(cacheBytes), own_(context, direct_), exposureFrame_(context, direct_),
-      nearest_(makeSampler(context, VK_FILTER_NEAREST)),
-      falseColours_(context, {.fragmentShader = false_colour_frag,
-                              .bindings = kFalseColourBindings,
-                              .pushConstantBytes = sizeof(FalseColourConstants),
-                              .targetFormat = kCodeFormat}),
-      nearer_(context, direct_), zoomFrame_(context)
+      movingBalls_(context, direct_, cacheBytes), cacheBytes_(cacheBytes), own_(context, direct_),
+      exposureFrame_(context, direct_), falseColours_(context), nearer_(context, direct_), zoomFrame_(context)
 {
 }
 
@@ -77,7 +66,7 @@ void Renderer::setSurface(Surface surface, std::vector<BallSize> sizes)
     lightsAreStale_ = true;
     radiance_.reset();
     materialBall_.reset();
-    ballsAreStale_ = true;
+    ballsAreStale_ = movingBallsAreStale_ = true;
 }
 
 void Renderer::setPixels(const Surface& pixels)
@@ -140,6 +129,15 @@ void Renderer::setLights(std::span<const Light> lights)
     }
 }
 
+void Renderer::setLightsMove(bool move)
+{
+    if (move != lightsMove_) {
+        lightsMove_ = move;
+        movingLights_.forget();
+        lightsHaveChanged();
+    }
+}
+
 void Renderer::setView(const glm::vec3& view)
 {
     if (view != view_) {
@@ -154,6 +152,7 @@ void Renderer::setResidual(ResidualUse use)
     if (use != residual_) {
         residual_ = use;
         ballsAreStale_ = ballsAreStale_ || plain_; // see ballsAreCodes
+        movingBallsAreStale_ = movingBallsAreStale_ || plain_;
         lightsHaveChanged();
     }
 }
@@ -173,14 +172,14 @@ DirectFrame::Inputs Renderer::inputs(float gain)
 {
     uploadLights();
     if (!hasResidual()) {
-        return {tables_, groups_, plain_, nullptr};
+        return {tables_, groups_, order_.still, order_.moved, plain_, nullptr};
     }
     ResidualWeights weights = residualFrame_.weights;
     if (residual_ == ResidualUse::alone) {
         weights.offset += glm::vec4(glm::vec3(kMiddleGrey / std::exp2(display_.exposureStops)), 0);
     }
     residualPass_.upload(weights, gain);
-    return {tables_, groups_, plain_, &residualPass_};
+    return {tables_, groups_, order_.still, order_.moved, plain_, &residualPass_};
 }
 
 void Renderer::setPath(RenderPath path)
@@ -218,6 +217,25 @@ const std::vector<BallSize>& Renderer::ballSizes()
     return ballSizes_;
 }
 
+std::vector<BallSize> Renderer::sizesTaken()
+{
+    std::vector<BallSize> sizes = ballSizes();
+    for (BallSize& size : sizes) {
+        if (lightsMove_ && (size.radiance == 0 || size.radiance > kMovingBall.radiance)) {
+            size.radiance = kMovingBall.radiance;
+        }
+        if (lightsMove_ && (size.display == 0 || size.display > kMovingBall.display)) {
+            size.display = kMovingBall.display;
+        }
+    }
+    return sizes;
+}
+
+bool Renderer::isCoarse()
+{
+    return pathTaken() == RenderPath::ball && sizesTaken() != ballSizes();
+}
+
 std::string Renderer::whyDirect()
 {
     if (show_ == Show::coverage) {
@@ -238,12 +256,13 @@ std::string Renderer::whyDirect()
     if (!surface_.horizon.empty()) {
         return "cast shadows differ between pixels of one normal";
     }
-    for (size_t i = 0; i < ballSizes().size(); ++i) {
-        if (ballSizes()[i].radiance == 0) {
+    const std::vector<BallSize> sizes = sizesTaken();
+    for (size_t i = 0; i < sizes.size(); ++i) {
+        if (sizes[i].radiance == 0) {
             return fmt::format("the highlight of '{}' is too sharp for a ball", surface_.materials[i].name);
         }
     }
-    const VkDeviceSize bytes = BallCache::leastBytes(ballSizes(), !ballsAreCodes(), lights_.size());
+    const VkDeviceSize bytes = BallCache::leastBytes(sizes, !ballsAreCodes(), lights_.size());
     if (bytes > cacheBytes_) {
         return fmt::format("the balls of {} material(s) take {} MiB, {} may be cached", surface_.materials.size(),
                            bytes >> 20, cacheBytes_ >> 20);
@@ -277,7 +296,9 @@ void Renderer::uploadLights()
     if (lightsAreStale_) {
         placePixels();
         residualFrame_ = residualFrame(surface_.residual, lights_, hasResidual() ? residual_ : ResidualUse::off);
-        groups_.upload(context_, residualFrame_.base, viewpointOf(surface_, view_));
+        order_ = lightsMove_ ? movingLights_.follow(residualFrame_.base)
+                             : MovingLights::Order{residualFrame_.base, {}, {0, residualFrame_.base.size()}};
+        groups_.upload(context_, order_.lights, viewpointOf(surface_, view_));
         lightsAreStale_ = false;
     }
 }
@@ -287,7 +308,7 @@ void Renderer::drawDirectly(const Shaded& shaded)
     const DirectFrame::Look look{display_, show_ == Show::coverage};
     const PixelTextures& from = shaded.canvas.pixels(shaded.pixels, plain_);
     const DirectFrame::Inputs lit = inputs(1);
-    shaded.canvas.draw(shaded.pixels, [&](VkCommandBuffer commands, const Texture& codes) {
+    shaded.canvas.draw(Canvas::Draws::everything, shaded.pixels, [&](VkCommandBuffer commands, const Texture& codes) {
         shaded.canvas.directFrame.recordPicture(commands, from, lit, look, codes);
     });
 }
@@ -296,44 +317,46 @@ void Renderer::drawFalseColours(const Shaded& shaded)
 {
     const FalseColourConstants constants = falseColourConstants(lights_, view_, surface_.materials.size());
     const PixelTextures& from = shaded.canvas.pixels(shaded.pixels, plain_);
-    const std::array inputs = {textureInput(kBindingNormals, nearest_, from.normals),
-                               textureInput(kBindingAlbedo, nearest_, albedoOrAny(from))};
-    const Pipeline& pipeline = falseColours_.with({!plain_, static_cast<int>(show_)});
-    shaded.canvas.draw(shaded.pixels, [&](VkCommandBuffer commands, const Texture& codes) {
-        beginRendering(commands, codes, Load::clear);
-        draw(context_, commands, pipeline, inputs, bytesOf(constants));
-        vkCmdEndRendering(commands);
+    shaded.canvas.draw(Canvas::Draws::everything, shaded.pixels, [&](VkCommandBuffer commands, const Texture& codes) {
+        falseColours_.record(commands, from, show_, constants, codes);
     });
 }
 
 void Renderer::updateBalls()
 {
-    if (pathTaken() != RenderPath::ball) {
-        return;
+    if (pathTaken() == RenderPath::ball) {
+        updatedBalls();
     }
+}
+
+BallCache& Renderer::updatedBalls()
+{
+    BallCache& balls = lightsMove_ ? movingBalls_ : balls_;
+    bool& isStale = lightsMove_ ? movingBallsAreStale_ : ballsAreStale_;
     uploadLights();
-    if (ballsAreStale_) {
-        balls_.setMaterials(ballSizes(), !ballsAreCodes());
-        ballsAreStale_ = false;
+    if (isStale) {
+        balls.setMaterials(sizesTaken(), !ballsAreCodes());
+        isStale = false;
     }
-    balls_.setLights(residualFrame_.base);
-    balls_.setDisplay(display_);
-    if (balls_.prepare()) {
-        context_.run([&](VkCommandBuffer commands) { balls_.record(commands, tables_, groups_); });
+    balls.setLights(order_.lights, std::array{order_.still, order_.moved});
+    balls.setDisplay(display_);
+    if (balls.prepare()) {
+        context_.run([&](VkCommandBuffer commands) { balls.record(commands, tables_, groups_); });
     }
+    return balls;
 }
 
 void Renderer::drawFromBalls(const Shaded& shaded, bool withResidual)
 {
-    updateBalls();
+    const BallCache& balls = updatedBalls();
     const PixelTextures& from = shaded.canvas.pixels(shaded.pixels, plain_);
     static_cast<void>(inputs(std::exp2(display_.exposureStops)));
-    const BallFrame::Inputs lit{.balls = balls_,
+    const BallFrame::Inputs lit{.balls = balls,
                                 .materials = static_cast<int>(tables_.size()),
                                 .toneCurve = display_.toneCurve,
                                 .residual = residualPass_,
                                 .residualFours = withResidual ? from.residualFours : 0};
-    shaded.canvas.draw(shaded.pixels, [&](VkCommandBuffer commands, const Texture& codes) {
+    shaded.canvas.draw(Canvas::Draws::whatIsShown, shaded.pixels, [&](VkCommandBuffer commands, const Texture& codes) {
         shaded.canvas.ballFrame.record(commands, from, lit, codes);
     });
 }
@@ -385,13 +408,13 @@ void Renderer::shade(const Shaded& shaded)
     }
 }
 
-void Renderer::drawZoomed(const Texture& shaded)
+void Renderer::drawZoomed(const Canvas& shaded)
 {
     if (zoomIsStale_) {
         zoomFrame_.set(*zoom_, magnified_ ? std::span<const uint8_t>(magnified_->cover) : std::span<const uint8_t>());
         zoomIsStale_ = false;
     }
-    zoomFrame_.draw(shaded);
+    zoomFrame_.draw(shaded.codes(), shaded.drawn());
 }
 
 void Renderer::drawPicture()
@@ -406,7 +429,7 @@ void Renderer::drawPicture()
         shade(shaded);
     }
     if (zoom_) {
-        drawZoomed(shaded.canvas.codes());
+        drawZoomed(shaded.canvas);
     }
     ++drawnPictures_;
 }
@@ -455,8 +478,8 @@ Frame Renderer::render(const Scene& scene)
 
 VkDeviceSize Renderer::deviceBytes() const
 {
-    VkDeviceSize bytes = balls_.bytes() + groups_.bytes() + own_.bytes() + nearer_.bytes() + zoomFrame_.bytes() +
-                         exposureFrame_.bytes() + residualPass_.bytes();
+    VkDeviceSize bytes = balls_.bytes() + movingBalls_.bytes() + groups_.bytes() + own_.bytes() + nearer_.bytes() +
+                         zoomFrame_.bytes() + exposureFrame_.bytes() + residualPass_.bytes();
     for (const TableTexture& table : tables_) {
         bytes += table.texture.bytes();
     }

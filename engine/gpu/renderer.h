@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "engine/gpu/canvas.h"
+#include "engine/gpu/false_colour_frame.h"
 #include "engine/gpu/zoom_frame.h"
-#include "engine/scene/false_colour.h"
 #include "engine/scene/scene.h"
 
 namespace nacre {
@@ -17,6 +17,7 @@ class Renderer {
 public:
     static constexpr VkDeviceSize kCacheBytes = 64 << 20;
     static constexpr size_t kExposurePixels = 1 << 14;
+    static constexpr BallSize kMovingBall{.radiance = 256, .display = 512};
 
     explicit Renderer(const Context& context, VkDeviceSize cacheBytes = kCacheBytes);
 
@@ -25,6 +26,9 @@ public:
     // Other pixels of the same materials, without albedo factors and layers as the surface is: balls stay.
     void setPixels(const Surface& pixels);
     void setLights(std::span<const Light> lights);
+    // While lights move, what those that stay add to pictures is kept, and balls have at most kMovingBall texels:
+    // pictures are near to those at rest, and quick.
+    void setLightsMove(bool move);
     void setView(const glm::vec3& view); // unit, towards the viewer
     void setPath(RenderPath path);
     void setDisplay(const Display& display);
@@ -58,16 +62,18 @@ public:
     std::string whyDirect();
     // One a material, of the ball path.
     const std::vector<BallSize>& ballSizes();
+    // Whether balls are coarser than these, since lights move.
+    bool isCoarse();
 
     // Scene with everything in it, at once; radiance by the direct path.
     Frame render(const Scene& scene);
     Frame render(std::span<const Light> lights, const glm::vec3& view = {0, 0, 1});
 
     VkDeviceSize deviceBytes() const;
-    VkDeviceSize cachedBytes() const { return balls_.bytes(); }
+    VkDeviceSize cachedBytes() const { return balls_.bytes() + movingBalls_.bytes(); }
     const Context& context() const { return context_; }
     size_t drawnPictures() const { return drawnPictures_; }
-    size_t drawnBallLights() const { return balls_.drawnLights(); }
+    size_t drawnBallLights() const { return balls_.drawnLights() + movingBalls_.drawnLights(); }
 
 private:
     struct MaterialBall {
@@ -90,25 +96,28 @@ private:
     void pictureHasChanged();
     void lightsHaveChanged();
     void materialBallHasChanged();
+    // That pictures are drawn from now.
+    std::vector<BallSize> sizesTaken();
     bool hasResidual() const;
     bool ballsAreCodes() const;
     // With the weights of the frame's lights, `gain` times, uploaded.
     DirectFrame::Inputs inputs(float gain);
+    BallCache& updatedBalls();
     void drawDirectly(const Shaded& shaded);
     void drawFromBalls(const Shaded& shaded, bool withResidual);
     void drawFalseColours(const Shaded& shaded);
     void shade(const Shaded& shaded);
-    void drawZoomed(const Texture& shaded);
+    void drawZoomed(const Canvas& shaded);
 
     const Context& context_;
     DirectPass direct_;
     ResidualPass residualPass_;
-    BallCache balls_;
+    BallCache balls_;       // at rest
+    BallCache movingBalls_; // while lights move
     VkDeviceSize cacheBytes_;
     Canvas own_;                // of the surface
     DirectFrame exposureFrame_; // of exposurePixels_
-    Sampler nearest_;
-    Pipelines falseColours_;
+    FalseColourFrame falseColours_;
 
     Surface surface_;
     bool plain_ = false;
@@ -119,14 +128,17 @@ private:
     LightGroups groups_;
     ResidualUse residual_ = ResidualUse::on;
     ResidualFrame residualFrame_; // of the lights, where they are not stale
+    bool lightsMove_ = false;
+    MovingLights movingLights_;
+    MovingLights::Order order_; // of the lights, where they are not stale
     glm::vec3 view_{0, 0, 1};
     RenderPath path_ = RenderPath::automatic;
     Display display_;
     Show show_ = Show::picture;
 
     bool lightsAreStale_ = true;
-    bool ballsAreStale_ = true;     // the cache does not know the materials yet
-    std::optional<Frame> radiance_; // where it is not stale
+    bool ballsAreStale_ = true, movingBallsAreStale_ = true; // a cache does not know the materials yet
+    std::optional<Frame> radiance_;                          // where it is not stale
 
     std::optional<Zoom> zoom_;
     std::optional<MagnifiedSurface> magnified_; // by zoom_, once it is drawn

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include <glm/common.hpp>
+
 #include "engine/scene/coverage.h"
 #include "shared/ball.h"
 
@@ -18,6 +20,20 @@ std::vector<glm::vec4> normalTexels(const Surface& surface, bool plain)
         }
     }
     return texels;
+}
+
+VkRect2D boundsOfData(std::span<const glm::vec4> normals, int width)
+{
+    glm::ivec2 low(width, static_cast<int>(normals.size()) / std::max(width, 1)), high(0);
+    for (size_t i = 0; i < normals.size(); ++i) {
+        if (normals[i].w > 0) {
+            const glm::ivec2 pixel(static_cast<int>(i) % width, static_cast<int>(i) / width);
+            low = glm::min(low, pixel);
+            high = glm::max(high, pixel + 1);
+        }
+    }
+    const glm::uvec2 size(glm::max(high - low, glm::ivec2(0)));
+    return {.offset = {low.x, low.y}, .extent = {size.x, size.y}};
 }
 
 // In place: x, y as shaders/shared/ball.h packs them.
@@ -75,10 +91,11 @@ PixelTextures uploadPixels(const Context& context, const Surface& surface, bool 
                             1};
     const bool full = precision == Precision::full;
     std::vector<glm::vec4> normals = normalTexels(surface, plain);
+    PixelTextures textures;
+    textures.shown = boundsOfData(normals, surface.normals.width);
     if (!full) {
         pack(normals);
     }
-    PixelTextures textures;
     textures.normals =
         uploadTexture(context, VK_IMAGE_TYPE_2D, extent, full ? kFloatFormat : kPackedNormalFormat, normals);
     if (!plain) {

@@ -21,6 +21,7 @@ struct PixelTextures {
     Texture places;        // xyz, of the surface's places; empty where it has none
     TexelBuffer residual;  // of kIntegersFormat, a pixel's components side by side; empty where there is no layer
     int residualFours = 0; // components, in fours
+    VkRect2D shown{};      // holds all pixels that have data
     VkDeviceSize bytes() const
     {
         return normals.bytes() + albedo.bytes() + horizon.bytes() + places.bytes() + residual.bytes();

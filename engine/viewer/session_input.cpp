@@ -33,6 +33,10 @@ std::optional<std::filesystem::path> SessionInput::take(const WindowEvents& even
     takeMouse(events, window, stage);
     const bool isHeld = window.isHeld(0) || window.isHeld(1) || window.isHeld(2);
     session.history.follow(session.state, isHeld || session.playing);
+    if (!isHeld) {
+        atRest_ = session.state.lights;
+    }
+    movesLights_ = session.playing || !(session.state.lights == atRest_);
     if (!ImGui::GetIO().WantTextInput) {
         for (const KeyPress& press : events.keys) {
             session.message.clear();

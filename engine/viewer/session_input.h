@@ -27,6 +27,8 @@ public:
     std::optional<std::filesystem::path> take(const WindowEvents& events, const Window& window, const Stage& stage);
 
     bool isTurning() const { return drag_ == Drag::turn; }
+    // By a button that is held, or by the light path that plays.
+    bool movesLights() const { return movesLights_; }
     // What the cursor is on, as the picture lies now.
     void inspect(const Stage& stage);
     // What was asked for is shown: a drop cannot be undone any more.
@@ -52,6 +54,8 @@ private:
     Drag drag_ = Drag::none;
     int dragButton_ = 0;
     glm::vec2 cursor_{0, 0};
+    std::vector<LightSource> atRest_; // lights when no button was held
+    bool movesLights_ = false;
     std::optional<Undo> undo_;
 };
 

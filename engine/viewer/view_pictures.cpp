@@ -115,6 +115,7 @@ void ViewPictures::turnTo(const ViewState& state)
 void ViewPictures::applyTo(Renderer& renderer, const ViewState& state, const glm::vec3& view) const
 {
     renderer.setView(view);
+    renderer.setLightsMove(lightsMove_);
     renderer.setLights(lights_);
     renderer.setDisplay(display_);
     renderer.setShow(state.show == Show::verdicts ? Show::picture : state.show);

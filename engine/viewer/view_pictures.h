@@ -20,6 +20,9 @@ public:
 
     // Meshes are drawn coarsely while they are turned.
     void setTurning(bool isTurning) { isTurning_ = isTurning; }
+    // Renderer::setLightsMove of all of them.
+    void setLightsMove(bool move) { lightsMove_ = move; }
+    bool doLightsMove() const { return lightsMove_; }
 
     // Read ones, which verdicts are on; null: none are at hand, and the render stands in their place.
     void setPhotographs(const Photographs* photographs) { photographs_ = photographs; }
@@ -66,6 +69,7 @@ private:
     LoadedScene scene_;
     Turn turn_; // of its meshes, as they are drawn
     bool isTurning_ = false, isCoarse_ = false;
+    bool lightsMove_ = false;
     const Photographs* photographs_ = nullptr;
     std::optional<Verdicts> verdicts_; // in place of the renders
     std::vector<Light> lights_;

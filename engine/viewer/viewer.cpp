@@ -36,6 +36,7 @@ constexpr float kStatusHeight = 26;
 constexpr float kBallSize = 200;
 constexpr float kThumbnailSize = 48;
 constexpr double kProgressSeconds = 0.1; // between looks at what is loading
+constexpr double kRestSeconds = 0.25;    // after which a light that is held counts as still
 constexpr double kTitleSeconds = 0.25;   // between changes of the title while frames follow each other
 constexpr glm::vec3 kBackground{0.11f, 0.11f, 0.12f};
 constexpr const char* kHint = "Drag on the ball of lights, or with the right button anywhere. H: help";
@@ -89,6 +90,7 @@ private:
     glm::vec3 view_{0, 0, 1};
 
     int framesLeft_ = kFramesToSettle;
+    bool rests_ = false;   // the mouse, while it holds a light
     std::string remark_;   // on the picture that was last at rest
     Stopwatch sinceFrame_; // that was drawn last
     Stopwatch sinceTitle_;
@@ -143,7 +145,10 @@ double ViewerWindow::waitingTime() const
     if (framesLeft_ > 0) {
         return 0;
     }
-    return loads_.busy() != nullptr ? kProgressSeconds : -1;
+    if (loads_.busy() != nullptr) {
+        return kProgressSeconds;
+    }
+    return pictures_.doLightsMove() ? kRestSeconds : -1;
 }
 
 void ViewerWindow::keepPace()
@@ -157,10 +162,15 @@ void ViewerWindow::keepPace()
 void ViewerWindow::takeEvents(const WindowEvents& events)
 {
     if (!events.any) {
+        if (framesLeft_ == 0 && pictures_.doLightsMove()) {
+            rests_ = true;
+            framesLeft_ = 1;
+        }
         framesLeft_ = std::max(framesLeft_, loads_.busy() != nullptr ? 1 : 0);
         return;
     }
     framesLeft_ = kFramesToSettle;
+    rests_ = false;
     if (events.resized) {
         swapchain_.rebuild();
     }
@@ -247,6 +257,7 @@ void ViewerWindow::takeScreenshot()
     }
     session_.wantsScreenshot = false;
     pictures_.setTurning(false);
+    pictures_.setLightsMove(false);
     try {
         applyState();
         const std::filesystem::path file = nextScreenshot(options_.screenshots);
@@ -300,6 +311,7 @@ std::optional<SeenPart> ViewerWindow::seenPart() const
 void ViewerWindow::drawPictures()
 {
     pictures_.setTurning(input_.isTurning());
+    pictures_.setLightsMove(input_.movesLights() && !rests_);
     applyState();
     seen_ = seenPart();
     pictures_.setZoom(seen_ ? std::optional(seen_->zoom) : std::nullopt);
@@ -349,6 +361,8 @@ void ViewerWindow::describePanels(const Stage& stage)
                             (session_.state.show == Show::picture || session_.state.show == Show::coverage);
     if (!isRendered) {
         remark_.clear();
+    } else if (pictures_.doLightsMove() && pictures_.renderer().isCoarse()) {
+        remark_ = "highlights are coarse while a light moves";
     } else if (framesLeft_ == 0 && !session_.playing) { // it takes as long as a frame: once nothing moves
         remark_ = describeUncertainShare(pictures_.uncertainShare());
     }
