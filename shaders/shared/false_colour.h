@@ -23,15 +23,20 @@ NACRE_FN vec3 normalColour(vec3 n)
     return 0.5f * n + 0.5f;
 }
 
-// Hues a golden section apart, so that the first few differ well whatever their number; darker from the ninth on, and
-// darker still from the 17th.
+// Eight colours that the colour-blind tell apart (Okabe and Ito, Color Universal Design, 2008; light grey in place of
+// black); half as bright from the ninth on, and darker still from the 17th.
 NACRE_FN vec3 labelColour(int label)
 {
-    float hue = fract(0.08f + 0.618034f * float(label));
-    vec3 shifted = vec3(hue, fract(hue + 2.0f / 3.0f), fract(hue + 1.0f / 3.0f));
-    vec3 pure = clamp(abs(6.0f * shifted - 3.0f) - 1.0f, 0.0f, 1.0f);
-    int ring = label / 8 - 3 * (label / 24);
-    return (1.0f - 0.3f * float(ring)) * (0.25f + 0.75f * pure);
+    int kind = label - 8 * (label / 8), ring = label / 8 - 3 * (label / 24);
+    vec3 colour = kind == 0   ? vec3(230.0f, 159.0f, 0.0f)
+                  : kind == 1 ? vec3(86.0f, 180.0f, 233.0f)
+                  : kind == 2 ? vec3(0.0f, 158.0f, 115.0f)
+                  : kind == 3 ? vec3(240.0f, 228.0f, 66.0f)
+                  : kind == 4 ? vec3(0.0f, 114.0f, 178.0f)
+                  : kind == 5 ? vec3(213.0f, 94.0f, 0.0f)
+                  : kind == 6 ? vec3(204.0f, 121.0f, 167.0f)
+                              : vec3(230.0f, 230.0f, 230.0f);
+    return (ring == 0 ? 1.0f : ring == 1 ? 0.5f : 0.28f) / 255.0f * colour;
 }
 
 // Least squares of the colour map viridis (Smith, van der Walt, matplotlib, 2015) on [0,1], off by at most 0.014.

@@ -2,7 +2,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include <glm/common.hpp>
+#include <glm/exponential.hpp>
 #include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
 #include <gtest/gtest.h>
 
 #include "engine/scene/false_colour.h"
@@ -33,6 +36,28 @@ TEST(FalseColour, LabelsDiffer)
     }
     for (int label = 0; label < 255; ++label) {
         EXPECT_GT(luminance(labelColour(label)), 0.1f) << "black is no label";
+    }
+}
+
+// As eyes without red or green cones see a colour (Machado, Oliveira, Fernandes, A Physiologically-based Model for
+// Simulation of Color Vision Deficiency, 2009). The colours that labels had before were 0.05 apart there.
+TEST(FalseColour, TheColourBlindTellEightLabelsApart)
+{
+    const glm::mat3 protanopia(0.152286f, 0.114503f, -0.003882f, 1.052583f, 0.786281f, -0.048116f, -0.204868f,
+                               0.099216f, 1.051998f);
+    const glm::mat3 deuteranopia(0.367322f, 0.280085f, -0.011820f, 0.860646f, 0.672501f, 0.042940f, -0.227968f,
+                                 0.047413f, 0.968881f);
+    for (const glm::mat3& eye : {protanopia, deuteranopia}) {
+        const auto seen = [&](int label) {
+            const glm::vec3 linear = glm::pow(labelColour(label), glm::vec3(2.2f));
+            return glm::pow(glm::clamp(eye * linear, 0.0f, 1.0f), glm::vec3(1 / 2.2f));
+        };
+        for (int a = 0; a < 8; ++a) {
+            for (int b = 0; b < a; ++b) {
+                const glm::vec3 difference = glm::abs(seen(a) - seen(b));
+                EXPECT_GT(std::max({difference.x, difference.y, difference.z}), 0.125f) << a << " and " << b;
+            }
+        }
     }
 }
 
