@@ -30,8 +30,8 @@ bool dependsOnDisplay(Show show)
 
 Renderer::Renderer(const Context& context, VkDeviceSize cacheBytes)
     : context_(context), direct_(context), residualPass_(context), balls_(context, direct_, cacheBytes),
-      movingBalls_(context, direct_, cacheBytes), cacheBytes_(cacheBytes), own_(context, direct_),
-      exposureFrame_(context, direct_), falseColours_(context), nearer_(context, direct_), zoomFrame_(context)
+      cacheBytes_(cacheBytes), own_(context, direct_), exposureFrame_(context, direct_), falseColours_(context),
+      nearer_(context, direct_), zoomFrame_(context)
 {
 }
 
@@ -66,7 +66,7 @@ void Renderer::setSurface(Surface surface, std::vector<BallSize> sizes)
     lightsAreStale_ = true;
     radiance_.reset();
     materialBall_.reset();
-    ballsAreStale_ = movingBallsAreStale_ = true;
+    balls_.drop();
 }
 
 void Renderer::setPixels(const Surface& pixels)
@@ -151,8 +151,9 @@ void Renderer::setResidual(ResidualUse use)
 {
     if (use != residual_) {
         residual_ = use;
-        ballsAreStale_ = ballsAreStale_ || plain_; // see ballsAreCodes
-        movingBallsAreStale_ = movingBallsAreStale_ || plain_;
+        if (plain_) { // see ballsAreCodes
+            balls_.drop();
+        }
         lightsHaveChanged();
     }
 }
@@ -217,23 +218,9 @@ const std::vector<BallSize>& Renderer::ballSizes()
     return ballSizes_;
 }
 
-std::vector<BallSize> Renderer::sizesTaken()
-{
-    std::vector<BallSize> sizes = ballSizes();
-    for (BallSize& size : sizes) {
-        if (lightsMove_ && (size.radiance == 0 || size.radiance > kMovingBall.radiance)) {
-            size.radiance = kMovingBall.radiance;
-        }
-        if (lightsMove_ && (size.display == 0 || size.display > kMovingBall.display)) {
-            size.display = kMovingBall.display;
-        }
-    }
-    return sizes;
-}
-
 bool Renderer::isCoarse()
 {
-    return pathTaken() == RenderPath::ball && sizesTaken() != ballSizes();
+    return pathTaken() == RenderPath::ball && LitBalls::sizesWhile(lightsMove_, ballSizes()) != ballSizes();
 }
 
 std::string Renderer::whyDirect()
@@ -256,7 +243,7 @@ std::string Renderer::whyDirect()
     if (!surface_.horizon.empty()) {
         return "cast shadows differ between pixels of one normal";
     }
-    const std::vector<BallSize> sizes = sizesTaken();
+    const std::vector<BallSize> sizes = LitBalls::sizesWhile(lightsMove_, ballSizes());
     for (size_t i = 0; i < sizes.size(); ++i) {
         if (sizes[i].radiance == 0) {
             return fmt::format("the highlight of '{}' is too sharp for a ball", surface_.materials[i].name);
@@ -329,21 +316,11 @@ void Renderer::updateBalls()
     }
 }
 
-BallCache& Renderer::updatedBalls()
+const BallCache& Renderer::updatedBalls()
 {
-    BallCache& balls = lightsMove_ ? movingBalls_ : balls_;
-    bool& isStale = lightsMove_ ? movingBallsAreStale_ : ballsAreStale_;
     uploadLights();
-    if (isStale) {
-        balls.setMaterials(sizesTaken(), !ballsAreCodes());
-        isStale = false;
-    }
-    balls.setLights(order_.lights, std::array{order_.still, order_.moved});
-    balls.setDisplay(display_);
-    if (balls.prepare()) {
-        context_.run([&](VkCommandBuffer commands) { balls.record(commands, tables_, groups_); });
-    }
-    return balls;
+    const std::vector<BallSize> sizes = LitBalls::sizesWhile(lightsMove_, ballSizes());
+    return balls_.updated(lightsMove_, {sizes, !ballsAreCodes(), order_, display_, tables_, groups_});
 }
 
 void Renderer::drawFromBalls(const Shaded& shaded, bool withResidual)
@@ -478,8 +455,8 @@ Frame Renderer::render(const Scene& scene)
 
 VkDeviceSize Renderer::deviceBytes() const
 {
-    VkDeviceSize bytes = balls_.bytes() + movingBalls_.bytes() + groups_.bytes() + own_.bytes() + nearer_.bytes() +
-                         zoomFrame_.bytes() + exposureFrame_.bytes() + residualPass_.bytes();
+    VkDeviceSize bytes = balls_.bytes() + groups_.bytes() + own_.bytes() + nearer_.bytes() + zoomFrame_.bytes() +
+                         exposureFrame_.bytes() + residualPass_.bytes();
     for (const TableTexture& table : tables_) {
         bytes += table.texture.bytes();
     }

@@ -6,6 +6,7 @@
 
 #include "engine/gpu/canvas.h"
 #include "engine/gpu/false_colour_frame.h"
+#include "engine/gpu/lit_balls.h"
 #include "engine/gpu/zoom_frame.h"
 #include "engine/scene/scene.h"
 
@@ -17,7 +18,6 @@ class Renderer {
 public:
     static constexpr VkDeviceSize kCacheBytes = 64 << 20;
     static constexpr size_t kExposurePixels = 1 << 14;
-    static constexpr BallSize kMovingBall{.radiance = 256, .display = 512};
 
     explicit Renderer(const Context& context, VkDeviceSize cacheBytes = kCacheBytes);
 
@@ -26,8 +26,8 @@ public:
     // Other pixels of the same materials, without albedo factors and layers as the surface is: balls stay.
     void setPixels(const Surface& pixels);
     void setLights(std::span<const Light> lights);
-    // While lights move, what those that stay add to pictures is kept, and balls have at most kMovingBall texels:
-    // pictures are near to those at rest, and quick.
+    // While lights move, what those that stay add to pictures is kept, and balls have at most LitBalls::kMovingSize
+    // texels: pictures are near to those at rest, and quick.
     void setLightsMove(bool move);
     void setView(const glm::vec3& view); // unit, towards the viewer
     void setPath(RenderPath path);
@@ -70,10 +70,10 @@ public:
     Frame render(std::span<const Light> lights, const glm::vec3& view = {0, 0, 1});
 
     VkDeviceSize deviceBytes() const;
-    VkDeviceSize cachedBytes() const { return balls_.bytes() + movingBalls_.bytes(); }
+    VkDeviceSize cachedBytes() const { return balls_.bytes(); }
     const Context& context() const { return context_; }
     size_t drawnPictures() const { return drawnPictures_; }
-    size_t drawnBallLights() const { return balls_.drawnLights() + movingBalls_.drawnLights(); }
+    size_t drawnBallLights() const { return balls_.drawnLights(); }
 
 private:
     struct MaterialBall {
@@ -96,13 +96,11 @@ private:
     void pictureHasChanged();
     void lightsHaveChanged();
     void materialBallHasChanged();
-    // That pictures are drawn from now.
-    std::vector<BallSize> sizesTaken();
     bool hasResidual() const;
     bool ballsAreCodes() const;
     // With the weights of the frame's lights, `gain` times, uploaded.
     DirectFrame::Inputs inputs(float gain);
-    BallCache& updatedBalls();
+    const BallCache& updatedBalls();
     void drawDirectly(const Shaded& shaded);
     void drawFromBalls(const Shaded& shaded, bool withResidual);
     void drawFalseColours(const Shaded& shaded);
@@ -112,8 +110,7 @@ private:
     const Context& context_;
     DirectPass direct_;
     ResidualPass residualPass_;
-    BallCache balls_;       // at rest
-    BallCache movingBalls_; // while lights move
+    LitBalls balls_;
     VkDeviceSize cacheBytes_;
     Canvas own_;                // of the surface
     DirectFrame exposureFrame_; // of exposurePixels_
@@ -137,8 +134,7 @@ private:
     Show show_ = Show::picture;
 
     bool lightsAreStale_ = true;
-    bool ballsAreStale_ = true, movingBallsAreStale_ = true; // a cache does not know the materials yet
-    std::optional<Frame> radiance_;                          // where it is not stale
+    std::optional<Frame> radiance_; // where it is not stale
 
     std::optional<Zoom> zoom_;
     std::optional<MagnifiedSurface> magnified_; // by zoom_, once it is drawn
