@@ -142,6 +142,16 @@ void changeExposure(Session& session, float stops)
     session.state.exposure = session.state.exposure.value_or(0.0f) + stops;
 }
 
+// As they stand before the object.
+void turnLights(ViewState& state, const Turn& before)
+{
+    const glm::dmat3 turned = matrixOf(state.turn) * glm::transpose(matrixOf(before));
+    for (LightSource& light : state.lights) {
+        light.direction = glm::vec3(turned * glm::dvec3(light.direction));
+        light.captured = 0;
+    }
+}
+
 } // namespace
 
 void act(Session& session, const Choices& choices, const KeyPress& press)
@@ -181,6 +191,10 @@ void act(Session& session, const Choices& choices, Action action, size_t number)
         return toggleWipe(session, choices);
     case Action::play:
         session.playing = !session.playing;
+        return;
+    case Action::follow:
+        session.lightsFollow = !session.lightsFollow;
+        session.message = session.lightsFollow ? "lights turn with the object" : "lights stay with the camera";
         return;
     case Action::reset:
         session.state = session.opened;
@@ -307,8 +321,12 @@ void turnObject(Session& session, const glm::vec2& moved)
         return;
     }
     Turn& turn = session.state.turn;
+    const Turn before = turn;
     turn.yaw = std::remainder(turn.yaw + kTurnOfDrag * moved.x, 360.0f);
     turn.pitch = std::clamp(turn.pitch + kTurnOfDrag * moved.y, -90.0f, 90.0f);
+    if (session.lightsFollow) {
+        turnLights(session.state, before);
+    }
 }
 
 void addLight(Session& session)

@@ -22,6 +22,7 @@ struct Session {
     std::optional<size_t> photograph; // of the captured ones, that was stepped to
     bool hasPhotographs = false;      // pictures of the captured lights are at hand
     bool canTurn = false;             // what is drawn lies on a mesh
+    bool lightsFollow = false;        // the object, where it is turned
     bool hasResidual = false;         // what is drawn has a residual layer, seen from the front
     std::string message;              // to the user, about what was asked for last
     bool wantsScreenshot = false;
@@ -57,7 +58,8 @@ void dragLight(Session& session, const glm::vec2& moved, float windowHeight);
 // The wheel over the light ball: a step of 1 takes the chosen light away by kDistanceStep, steps below 0 bring it
 // nearer. Beyond kFarthestChosen it is distant.
 void pushLight(Session& session, float steps);
-// A drag by so many units of layout, y down, turns what can be turned: its front goes with the cursor.
+// A drag by so many units of layout, y down, turns what can be turned: its front goes with the cursor, and so do lights
+// that follow it; an environment stays.
 void turnObject(Session& session, const glm::vec2& moved);
 void addLight(Session& session);
 void removeLight(Session& session); // the chosen one, unless nothing would light the scene

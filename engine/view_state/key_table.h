@@ -17,6 +17,7 @@ enum class Action {
     residual,
     wipe,
     play,
+    follow,
     reset,
     fit,
     previousPhotograph,

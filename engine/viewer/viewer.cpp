@@ -193,6 +193,7 @@ void ViewerWindow::takeWhatWasRead()
         session_ = {.state = done.scene->state,
                     .textScale = session_.textScale,
                     .canTurn = session_.canTurn,
+                    .lightsFollow = session_.lightsFollow,
                     .hasResidual = session_.hasResidual,
                     .wantsScreenshot = session_.wantsScreenshot};
         applyState();

@@ -60,6 +60,22 @@ TEST(Shapes, AWayBackTurnsAMeshBack)
     EXPECT_EQ(session.state.turn, (Turn{.yaw = 2.5f, .pitch = 90})) << "once around, and not upside down";
 }
 
+TEST(Shapes, LightsStayOrTurnWithTheObject)
+{
+    Session session = opened();
+    session.canTurn = true;
+    session.state.lights = {LightSource{.direction = {0, 0, 2}}, LightSource{.direction = {0, 1, 0}}};
+    const std::vector<LightSource> before = session.state.lights;
+    turnObject(session, {360, 0}); // a quarter of a turn
+    EXPECT_EQ(session.state.lights, before);
+    act(session, someChoices(), Action::follow);
+    turnObject(session, {-360, 0});
+    EXPECT_NEAR(session.state.lights[0].direction.x, -2, 1e-6f) << "from the front to the left";
+    EXPECT_NEAR(session.state.lights[1].direction.y, 1, 1e-6f) << "on the axis";
+    turnObject(session, {360, 0});
+    EXPECT_NEAR(session.state.lights[0].direction.z, 2, 1e-6f);
+}
+
 TEST(Shapes, WhatHasNoMeshStays)
 {
     Session session = opened();
