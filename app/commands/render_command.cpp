@@ -9,6 +9,7 @@
 #include "engine/loading/scene_loading.h"
 #include "engine/scene/scene_names.h"
 #include "engine/scene/scene_residual.h"
+#include "engine/target/mesh_file.h"
 
 namespace nacre {
 
@@ -73,6 +74,23 @@ void report(const Scene& scene, Renderer& renderer, const RenderOutput& output, 
                output.frames > 1 && !output.isAnimation ? " and so on" : "");
 }
 
+// Gives the renderer what the camera sees of a mesh that turns once around over the frames; none: no object turns.
+std::function<void(int)> turningObject(const SceneDescription& scene, const Context& context, Renderer& renderer)
+{
+    if (scene.motion != LightMotion::object) {
+        return {};
+    }
+    const auto mesh = std::make_shared<const Mesh>(loadMesh(scene.onto));
+    const std::shared_ptr<MeshRaster> raster = meshRasterFor(context, mesh, scene);
+    return [scene, raster, &renderer](int frame) {
+        SceneDescription turned = scene;
+        turned.turn.yaw += 360.0f * static_cast<float>(frame) / static_cast<float>(scene.frames);
+        Surface pixels;
+        drawMesh(*raster, turned, pixels);
+        renderer.setPixels(pixels);
+    };
+}
+
 void runRender(const RenderArguments& arguments)
 {
     const SceneDescription description = arguments.scene.description();
@@ -83,7 +101,8 @@ void runRender(const RenderArguments& arguments)
     Renderer renderer(context);
     renderer.setSurface(scene.surface);
     renderer.setView(scene.view);
-    const RenderedOutput rendered = renderFrames(renderer, output, scene);
+    const RenderedOutput rendered =
+        renderFrames(renderer, output, scene, turningObject(description, context, renderer));
     if (!arguments.quiet) {
         report(scene, renderer, output, rendered);
     }
@@ -144,9 +163,10 @@ void addRenderCommand(CLI::App& app)
                   "Number of frames: NAME_0001.png and so on, or one .webp of 25 a second")
         ->group("Picture");
     scene
-        .addParsed(
-            *command, "--motion", &SceneDescription::motion, motionFromName,
-            "Motion of the lights over --frames: turntable (about the view), sweep (left to right), none [turntable]")
+        .addParsed(*command, "--motion", &SceneDescription::motion, motionFromName,
+                   "Motion over --frames: of the lights, turntable (about the view) or sweep (left to right); of the "
+                   "mesh of --onto, "
+                   "object; none [turntable]")
         ->group("Picture");
     command
         ->add_option("--scale", arguments->scale,

@@ -15,6 +15,7 @@
 #include "engine/gpu/texture.h"
 #include "engine/scene/coverage.h"
 #include "engine/scene/picture_size.h"
+#include "engine/scene/turn.h"
 #include "shared/shading.h"
 
 namespace nacre {
@@ -210,6 +211,9 @@ void print(const std::vector<TransferPicture>& pictures)
 void checkArguments(const TransferArguments& arguments)
 {
     sizeFromArgument("--size", arguments.size);
+    if (!arguments.turn.empty()) {
+        turnFromText(arguments.turn);
+    }
     if (arguments.targets.empty()) {
         throw Error("", "no target is named", "--onto X,Y", Error::kUsage);
     }
@@ -273,6 +277,7 @@ void addTransferCommand(CLI::App& app)
     command->add_option("--frames", arguments->frames, "Number of frames with moving lights, as .png and one .webp");
     command->add_option("--motion", arguments->motion,
                         "Motion of the lights: turntable (about the view) or sweep (left to right) [turntable]");
+    command->add_option("--turn", arguments->turn, "Turn of the meshes of --onto in degrees, YAW,PITCH[,ROLL] [0,0]");
     command->add_flag("--hatch", arguments->hatch, "Stripes where a picture is uncertain by over 20 %");
     command->add_flag("--shadows", arguments->shadows, "Cast shadows, from the height of the shapes");
     command->add_option("-o,--output", arguments->output, "Folder for sheet_RIG.png and every single picture")

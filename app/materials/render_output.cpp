@@ -37,12 +37,17 @@ std::vector<ImageAttribute> attributesOf(const DeviceInfo& device)
 }
 
 // One exposure for the whole sequence, so that it does not flicker: that of its brightest frame.
-float commonExposure(Renderer& renderer, const RenderOutput& output, const std::vector<Light>& lights)
+float commonExposure(Renderer& renderer, const RenderOutput& output, const std::vector<Light>& lights,
+                     const std::function<void(int)>& turnTo)
 {
     const int probes = std::min(output.frames, kExposureFrames);
     float stops = 0;
     for (int i = 0; i < probes; ++i) {
-        renderer.setLights(movedLights(lights, output.motion, i * output.frames / probes, output.frames));
+        const int frame = i * output.frames / probes;
+        renderer.setLights(movedLights(lights, output.motion, frame, output.frames));
+        if (turnTo) {
+            turnTo(frame);
+        }
         const float wanted = renderer.automaticExposure();
         stops = i == 0 ? wanted : std::min(stops, wanted);
     }
@@ -112,7 +117,8 @@ RenderOutput checkedOutput(const SceneDescription& scene, const fs::path& file, 
     return output;
 }
 
-RenderedOutput renderFrames(Renderer& renderer, const RenderOutput& output, const Scene& scene)
+RenderedOutput renderFrames(Renderer& renderer, const RenderOutput& output, const Scene& scene,
+                            const std::function<void(int frame)>& turnTo)
 {
     const std::vector<ImageAttribute> attributes = attributesOf(renderer.context().info());
     std::optional<AnimationFile> animation;
@@ -129,12 +135,15 @@ RenderedOutput renderFrames(Renderer& renderer, const RenderOutput& output, cons
     renderer.setShow(output.show);
     renderer.setResidual(residualOfExposure(output.residual));
     if (output.isExposed()) {
-        rendered.stops = output.exposure ? *output.exposure : commonExposure(renderer, output, scene.lights);
+        rendered.stops = output.exposure ? *output.exposure : commonExposure(renderer, output, scene.lights, turnTo);
         renderer.setDisplay({.exposureStops = rendered.stops, .toneCurve = output.toneCurve});
     }
     renderer.setResidual(output.residual);
     for (int frame = 0; frame < output.frames; ++frame) {
         renderer.setLights(movedLights(scene.lights, output.motion, frame, output.frames));
+        if (turnTo) {
+            turnTo(frame);
+        }
         const fs::path file = fileOfFrame(output.file, frame, output.frames);
         if (animation) {
             animation->add(renderer.picture());

@@ -1,4 +1,6 @@
 #pragma once
+#include <functional>
+
 #include "engine/gpu/renderer.h"
 #include "engine/scene/scene_description.h"
 
@@ -33,7 +35,9 @@ struct RenderedOutput {
     float stops = 0;             // of pictures for the eye
 };
 
-// Draws and writes all frames of the scene, whose surface and view the renderer has.
-RenderedOutput renderFrames(Renderer& renderer, const RenderOutput& output, const Scene& scene);
+// Draws and writes all frames of the scene, whose surface and view the renderer has. `turnTo` gives the renderer the
+// pixels of a frame, where the object turns.
+RenderedOutput renderFrames(Renderer& renderer, const RenderOutput& output, const Scene& scene,
+                            const std::function<void(int frame)>& turnTo = {});
 
 } // namespace nacre

@@ -87,6 +87,9 @@ MeshViewOptions viewOptionsOf(const TargetCommandArguments& arguments)
     // Seen from above or below, what was farthest away is up.
     const bool vertical = options.from.x == 0 && options.from.z == 0;
     options.up = directionFrom("--up", arguments.up, vertical ? glm::vec3(0, 0, -1) : options.up);
+    if (!arguments.turn.empty()) {
+        options.turn = turnFromText(arguments.turn);
+    }
     return options;
 }
 

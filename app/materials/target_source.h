@@ -16,6 +16,7 @@ struct TargetCommandArguments {
     std::filesystem::path output;
     std::string from;
     std::string up;
+    std::string turn;
     std::string size;
     std::filesystem::path normalMap;
     std::string normalY;

@@ -182,7 +182,8 @@ void requireConsistent(const SceneDescription& scene)
     if (scene.normalY && scene.onto.empty()) {
         throw Error("", "normal-y has nothing to turn", "other normals to put the material onto", Error::kUsage);
     }
-    if (scene.turn != Turn() && !isMeshFile(scene.onto)) {
+    const bool isTurned = scene.turn != Turn() || scene.motion == LightMotion::object;
+    if (isTurned && !isMeshFile(scene.onto)) {
         throw Error(scene.onto.empty() ? scene.surface : scene.onto, "cannot be turned",
                     "a mesh to put the material onto (.obj, .ply, .gltf, .glb, .stl)", Error::kUsage);
     }

@@ -14,7 +14,7 @@ namespace {
 constexpr std::array kNormalYs = {std::pair("gl", NormalY::gl), std::pair("dx", NormalY::dx)};
 
 constexpr std::array kMotions = {std::pair("turntable", LightMotion::turntable), std::pair("sweep", LightMotion::sweep),
-                                 std::pair("none", LightMotion::none)};
+                                 std::pair("object", LightMotion::object), std::pair("none", LightMotion::none)};
 
 constexpr std::array kPaths = {std::pair("auto", RenderPath::automatic), std::pair("direct", RenderPath::direct),
                                std::pair("ball", RenderPath::ball)};
@@ -57,7 +57,7 @@ std::string nameOf(NormalY normalY)
 
 LightMotion motionFromName(const std::string& name)
 {
-    return valueOf(kMotions, "motion", name, "turntable, sweep or none");
+    return valueOf(kMotions, "motion", name, "turntable, sweep, object or none");
 }
 
 std::string nameOf(LightMotion motion)

@@ -70,7 +70,8 @@ TEST(SceneNames, EveryChoiceHasOne)
     for (const ResidualUse use : {ResidualUse::on, ResidualUse::off, ResidualUse::alone}) {
         EXPECT_EQ(residualUseFromName(nameOf(use)), use);
     }
-    for (const LightMotion motion : {LightMotion::none, LightMotion::turntable, LightMotion::sweep}) {
+    for (const LightMotion motion :
+         {LightMotion::none, LightMotion::turntable, LightMotion::sweep, LightMotion::object}) {
         EXPECT_EQ(motionFromName(nameOf(motion)), motion);
     }
     for (const RenderPath path : {RenderPath::automatic, RenderPath::direct, RenderPath::ball}) {
