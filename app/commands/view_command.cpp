@@ -12,6 +12,7 @@
 #include "engine/files/text_files.h"
 #include "engine/loading/scene_loading.h"
 #include "engine/scene/picture_size.h"
+#include "engine/viewer/headless_view.h"
 #include "engine/viewer/viewer.h"
 #include "engine/viewer/window.h"
 

@@ -158,17 +158,8 @@ void showObservations(const PanelInputs& inputs, size_t pixel)
     }
 }
 
-} // namespace
-
-void showInspectorPanel(const Session& session, const PanelInputs& inputs)
+void showPixel(const Session& session, const PanelInputs& inputs)
 {
-    if (!ImGui::CollapsingHeader("Under the cursor", ImGuiTreeNodeFlags_DefaultOpen)) {
-        return;
-    }
-    if (!inputs.pixel || inputs.drawn == nullptr) {
-        ImGui::TextDisabled("point at the picture");
-        return;
-    }
     const Surface& surface = inputs.drawn->surface;
     const size_t i = surface.normals.index(inputs.pixel->x, inputs.pixel->y);
     const glm::vec3 n = surface.normals.normals[i];
@@ -192,6 +183,22 @@ void showInspectorPanel(const Session& session, const PanelInputs& inputs)
     if (inputs.photographs != nullptr) {
         showObservations(inputs, i);
     }
+}
+
+} // namespace
+
+void showInspectorPanel(const Session& session, const PanelInputs& inputs)
+{
+    if (!ImGui::CollapsingHeader("Under the cursor", ImGuiTreeNodeFlags_DefaultOpen)) {
+        return;
+    }
+    if (!inputs.pixel || inputs.drawn == nullptr) {
+        ImGui::TextDisabled("point at the picture");
+        return;
+    }
+    ImGui::PushTextWrapPos(0); // at the panel's edge
+    showPixel(session, inputs);
+    ImGui::PopTextWrapPos();
 }
 
 } // namespace nacre

@@ -133,6 +133,7 @@ void showChosen(LightSource& light)
     const float strength = std::max({light.irradiance.r, light.irradiance.g, light.irradiance.b});
     glm::vec3 colour = strength > 0 ? light.irradiance / strength : glm::vec3(1);
     float wanted = strength;
+    besideIfItFits(ImGui::GetItemRectMax().x - ImGui::GetWindowPos().x + ImGui::GetStyle().ItemSpacing.x, "Colour");
     bool changed = ImGui::ColorEdit3("Colour", &colour.x, ImGuiColorEditFlags_Float | ImGuiColorEditFlags_NoInputs);
     ImGui::PushItemWidth(-0.38f * ImGui::GetWindowWidth());
     showAngles(light);

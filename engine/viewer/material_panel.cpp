@@ -66,8 +66,12 @@ void showMaterialPanel(Session& session, const PanelInputs& inputs, std::vector<
     if (inputs.choices.targets.size() > 1) {
         ImGui::TextDisabled("on the shape of (T)");
         const auto target = chosenTarget(session.state, inputs.choices);
+        const float half = ImGui::GetCursorPosX() + 0.5f * ImGui::GetContentRegionAvail().x;
         for (size_t i = 0; i < inputs.choices.targets.size(); ++i) {
             ImGui::PushID(static_cast<int>(i) + 1000);
+            if (i % 2 == 1 && ImGui::GetItemRectMax().x < ImGui::GetWindowPos().x + half) {
+                besideIfItFits(half, inputs.choices.targets[i].name.c_str());
+            }
             if (ImGui::RadioButton(inputs.choices.targets[i].name.c_str(), target == i)) {
                 chooseTarget(session, inputs.choices, i);
             }

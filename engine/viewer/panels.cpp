@@ -95,6 +95,14 @@ bool showValue(const char* label, float& value, float least, float most, const c
     return isChanged;
 }
 
+void besideIfItFits(float x, const char* label)
+{
+    const float width = ImGui::GetFrameHeight() + ImGui::GetStyle().ItemInnerSpacing.x + ImGui::CalcTextSize(label).x;
+    if (x + width <= ImGui::GetWindowContentRegionMax().x) {
+        ImGui::SameLine(x);
+    }
+}
+
 bool showStatus(const Session& session, const Loader* busy, const Stage& stage, const std::string& remark)
 {
     const Area& area = stage.area;
@@ -144,12 +152,12 @@ void showDisplayPanel(Session& session)
     }
     const float half = ImGui::GetCursorPosX() + 0.5f * ImGui::GetContentRegionAvail().x;
     for (size_t i = 0; i < kShown.size(); ++i) {
+        if (i % 2 == 1) {
+            besideIfItFits(half, kShown[i].first);
+        }
         if (ImGui::RadioButton(kShown[i].first, state.show == kShown[i].second)) {
             state.show = kShown[i].second;
             session.comparison = Comparison::none;
-        }
-        if (i % 2 == 0) {
-            ImGui::SameLine(half);
         }
     }
     if (session.hasResidual) {
@@ -161,7 +169,9 @@ void showHelp(const glm::vec2& windowSize, float scale)
 {
     ImGui::SetNextWindowPos({windowSize.x / 2, windowSize.y / 2}, ImGuiCond_Always, {0.5f, 0.5f});
     ImGui::SetNextWindowBgAlpha(0.94f);
-    const ImGuiWindowFlags flags = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_AlwaysAutoResize |
+    ImGui::SetNextWindowSizeConstraints({0, 0}, {windowSize.x, windowSize.y});
+    const ImGuiWindowFlags flags = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize |
+                                   ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_AlwaysAutoResize |
                                    ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoNav;
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {18 * scale, 14 * scale});
     ImGui::Begin("help", nullptr, flags);

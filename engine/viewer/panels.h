@@ -44,7 +44,11 @@ void showInspectorPanel(const Session& session, const PanelInputs& inputs);
 bool showValue(const char* label, float& value, float least, float most, const char* format,
                bool isLogarithmic = false);
 
-// Over everything.
+// The next item, a button or box with this label, beside the last one, from `x` on in the panel, where it has room
+// there.
+void besideIfItFits(float x, const char* label);
+
+// Over everything; what does not fit is scrolled to.
 void showHelp(const glm::vec2& windowSize, float scale);
 
 } // namespace nacre

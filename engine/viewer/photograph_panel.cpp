@@ -20,10 +20,10 @@ void chooseShown(Session& session, const Choices& choices)
                                                                        : Action::photograph;
     const float second = ImGui::GetCursorPosX() + 0.45f * ImGui::GetContentRegionAvail().x;
     choose("Render", session.comparison == Comparison::none && !isVerdicts, back);
-    ImGui::SameLine(second);
+    besideIfItFits(second, "Photograph (P)");
     choose("Photograph (P)", session.comparison == Comparison::photograph, Action::photograph);
     choose("Verdicts (V)", isVerdicts, Action::verdicts);
-    ImGui::SameLine(second);
+    besideIfItFits(second, "Difference (X)");
     choose("Difference (X)", session.comparison == Comparison::difference, Action::difference);
 }
 

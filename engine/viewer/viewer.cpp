@@ -2,12 +2,9 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <thread>
 
 #include <fmt/format.h>
 #include <glm/common.hpp>
-#include <glm/geometric.hpp>
 #include <imgui.h>
 
 #include "engine/files/error.h"
@@ -16,8 +13,8 @@
 #include "engine/gpu/texture.h"
 #include "engine/scene/coverage.h"
 #include "engine/scene/scene_residual.h"
-#include "engine/surface/surface.h"
 #include "engine/viewer/background_loads.h"
+#include "engine/viewer/frame_pace.h"
 #include "engine/viewer/light_ball_picture.h"
 #include "engine/viewer/panels.h"
 #include "engine/viewer/placed_picture.h"
@@ -25,22 +22,16 @@
 #include "engine/viewer/session_input.h"
 #include "engine/viewer/ui_pass.h"
 #include "engine/viewer/view_pictures.h"
+#include "engine/viewer/window_layout.h"
 
 namespace nacre {
 namespace {
 
-constexpr double kMostFramesPerSecond = 60; // FIFO does not hold every driver back
-constexpr float kPanelWidth = 300;          // units of layout
-constexpr float kInspectorWidth = 250;
-constexpr float kStatusHeight = 26;
-constexpr float kBallSize = 200;
-constexpr float kThumbnailSize = 48;
 constexpr double kProgressSeconds = 0.1; // between looks at what is loading
 constexpr double kRestSeconds = 0.25;    // after which a light that is held counts as still
 constexpr double kTitleSeconds = 0.25;   // between changes of the title while frames follow each other
 constexpr glm::vec3 kBackground{0.11f, 0.11f, 0.12f};
 constexpr const char* kHint = "Drag on the ball of lights, or with the right button anywhere. H: help";
-constexpr int kFramesToSettle = 3; // ImGui takes a few
 
 // Frames: what has happened since the last, what was read, and then pictures and panels, as often as anything changes.
 class ViewerWindow {
@@ -53,7 +44,6 @@ public:
 
 private:
     double waitingTime() const;
-    void keepPace();
     void takeEvents(const WindowEvents& events);
     void takeWhatWasRead();
     void takeScene(const ViewState& state, const LoadedScene& scene);
@@ -63,12 +53,11 @@ private:
     void applyState();
     void drawFrame();
     void drawPictures();
-    int ballSize() const; // pixels
     std::optional<SeenPart> seenPart() const;
     void placePicture(const Stage& stage);
     void describePanels(const Stage& stage);
-    void showTitle(double seconds);
-    float panelWidth() const; // on the right
+    void showTitle();
+    WindowLayout layout() const;
     Stage stage() const;
 
     const Context& context_;
@@ -89,13 +78,10 @@ private:
     Session& session_;
     glm::vec3 view_{0, 0, 1};
 
-    int framesLeft_ = kFramesToSettle;
-    bool rests_ = false;   // the mouse, while it holds a light
-    std::string remark_;   // on the picture that was last at rest
-    Stopwatch sinceFrame_; // that was drawn last
+    FramePace pace_;
+    bool rests_ = false; // the mouse, while it holds a light
+    std::string remark_; // on the picture that was last at rest
     Stopwatch sinceTitle_;
-    double frameSeconds_ = 0; // of one, smoothed
-    size_t shownFrames_ = 0;
 
     BackgroundLoads loads_;
 };
@@ -120,7 +106,7 @@ ViewerWindow::ViewerWindow(const Context& context, ViewState state, Choices choi
 void ViewerWindow::run()
 {
     while (!session_.wantsToQuit && !window_.shouldClose()) {
-        keepPace();
+        pace_.wait();
         takeEvents(window_.waitForEvents(waitingTime()));
         takeWhatWasRead();
         loads_.follow(session_.state, input_.choices, pictures_.scene());
@@ -129,11 +115,11 @@ void ViewerWindow::run()
         }
         followScale();
         const glm::ivec2 size = window_.framebufferSize();
-        if (!swapchain_.isEmpty() && size.x > 0 && size.y > 0 && framesLeft_ > 0) {
+        if (!swapchain_.isEmpty() && size.x > 0 && size.y > 0 && pace_.isDue()) {
             drawFrame();
         }
     }
-    fmt::print("showed       {} pictures\n", shownFrames_);
+    fmt::print("showed       {} pictures\n", pace_.drawn());
 }
 
 // 0 while something moves; negative where nothing does until something happens.
@@ -142,7 +128,7 @@ double ViewerWindow::waitingTime() const
     if (swapchain_.isEmpty()) {
         return -1;
     }
-    if (framesLeft_ > 0) {
+    if (pace_.isDue()) {
         return 0;
     }
     if (loads_.busy() != nullptr) {
@@ -151,25 +137,17 @@ double ViewerWindow::waitingTime() const
     return pictures_.doLightsMove() ? kRestSeconds : -1;
 }
 
-void ViewerWindow::keepPace()
-{
-    const double left = 1 / kMostFramesPerSecond - sinceFrame_.seconds();
-    if (framesLeft_ > 0 && left > 0) {
-        std::this_thread::sleep_for(std::chrono::duration<double>(left));
-    }
-}
-
 void ViewerWindow::takeEvents(const WindowEvents& events)
 {
     if (!events.any) {
-        if (framesLeft_ == 0 && pictures_.doLightsMove()) {
+        if (!pace_.isDue() && pictures_.doLightsMove()) {
             rests_ = true;
-            framesLeft_ = 1;
+            pace_.ask(1);
         }
-        framesLeft_ = std::max(framesLeft_, loads_.busy() != nullptr ? 1 : 0);
+        pace_.ask(loads_.busy() != nullptr ? 1 : 0);
         return;
     }
-    framesLeft_ = kFramesToSettle;
+    pace_.settle();
     rests_ = false;
     if (events.resized) {
         swapchain_.rebuild();
@@ -209,12 +187,11 @@ void ViewerWindow::takeWhatWasRead()
     }
     if (done.material) {
         const auto& [specification, material] = *done.material;
-        const auto size = static_cast<int>(kThumbnailSize * ui_->scale());
-        thumbnails_.insert_or_assign(specification,
-                                     uploadPicture(context_, materialThumbnail(context_, *material, size)));
+        thumbnails_.insert_or_assign(
+            specification, uploadPicture(context_, materialThumbnail(context_, *material, layout().thumbnailSize())));
     }
     if (done.scene || done.photographs || done.material) {
-        framesLeft_ = kFramesToSettle;
+        pace_.settle();
     }
 }
 
@@ -247,7 +224,7 @@ void ViewerWindow::keepShown()
 {
     input_.goBackTo(loads_.shown());
     loads_.keep(session_.state);
-    framesLeft_ = kFramesToSettle;
+    pace_.settle();
 }
 
 // Of what the state shows, in its own size; once it is loaded.
@@ -267,22 +244,19 @@ void ViewerWindow::takeScreenshot()
     } catch (const Error& e) {
         session_.message = e.what();
     }
-    framesLeft_ = kFramesToSettle;
+    pace_.settle();
 }
 
-float ViewerWindow::panelWidth() const
+WindowLayout ViewerWindow::layout() const
 {
-    return std::min(kPanelWidth * ui_->scale(), 0.4f * static_cast<float>(swapchain_.extent().width));
+    return {glm::vec2(swapchain_.extent().width, swapchain_.extent().height), ui_->scale()};
 }
 
 Stage ViewerWindow::stage() const
 {
-    const glm::vec2 window(swapchain_.extent().width, swapchain_.extent().height);
-    const float inspector = std::min(kInspectorWidth * ui_->scale(), 0.3f * window.x);
-    const glm::vec2 taken(panelWidth() + inspector, kStatusHeight * ui_->scale());
-    return {.window = window,
+    return {.window = layout().window,
             .scale = ui_->scale(),
-            .area = {{inspector, 0}, glm::max(window - taken, glm::vec2(1))},
+            .area = layout().area(),
             .picture = pictures_.size(),
             .wipeColumn = pictures_.other() != nullptr ? std::optional(pictures_.wipeColumn()) : std::nullopt};
 }
@@ -291,11 +265,6 @@ void ViewerWindow::applyState()
 {
     settleShow(session_);
     pictures_.apply(session_.state, view_, input_.choices.captured);
-}
-
-int ViewerWindow::ballSize() const
-{
-    return static_cast<int>(kBallSize * ui_->scale());
 }
 
 // None where pictures are shown as they are: photographs and what is judged or compared pixel by pixel.
@@ -318,7 +287,7 @@ void ViewerWindow::drawPictures()
     pictures_.setZoom(seen_ ? std::optional(seen_->zoom) : std::nullopt);
     pictures_.draw();
     if (!pictures_.scene().main->surface.materials.empty()) {
-        ball_ = &lightBall_.draw(pictures_, ballSize());
+        ball_ = &lightBall_.draw(pictures_, layout().ballSize());
         comparison_.update(session_, loads_.photographs(), pictures_);
     }
 }
@@ -354,7 +323,7 @@ void ViewerWindow::describePanels(const Stage& stage)
                              .pixel = input_.pixel,
                              .comparisonFigures = comparison_.figures(),
                              .scale = stage.scale};
-    showPanels(session_, inputs, stage, panelWidth(), placed_);
+    showPanels(session_, inputs, stage, layout().panelWidth(), placed_);
     if (comparison_.picture() == nullptr) {
         showWipeLine(session_, stage);
     }
@@ -364,7 +333,7 @@ void ViewerWindow::describePanels(const Stage& stage)
         remark_.clear();
     } else if (pictures_.doLightsMove() && pictures_.renderer().isCoarse()) {
         remark_ = "highlights are coarse while a light moves";
-    } else if (framesLeft_ == 0 && !session_.playing) { // it takes as long as a frame: once nothing moves
+    } else if (!pace_.isDue() && !session_.playing) { // it takes as long as a frame: once nothing moves
         remark_ = describeUncertainShare(pictures_.uncertainShare());
     }
     if (showStatus(session_, loads_.busy(), stage, remark_)) {
@@ -381,8 +350,7 @@ void ViewerWindow::describePanels(const Stage& stage)
 
 void ViewerWindow::drawFrame()
 {
-    sinceFrame_.lap();
-    --framesLeft_;
+    pace_.begin();
     drawPictures();
     placed_.clear();
     const Stage stage = this->stage();
@@ -397,27 +365,26 @@ void ViewerWindow::drawFrame()
     });
     if (!wasShown) {
         swapchain_.rebuild();
-        framesLeft_ = kFramesToSettle;
+        pace_.settle();
     }
-    ++shownFrames_;
-    showTitle(sinceFrame_.seconds());
+    pace_.end();
+    showTitle();
     if (session_.playing) {
-        play(session_, static_cast<float>(std::max(frameSeconds_, 1 / kMostFramesPerSecond)));
-        framesLeft_ = std::max(framesLeft_, 1);
+        play(session_, static_cast<float>(std::max(pace_.seconds(), 1 / FramePace::kMostFramesPerSecond)));
+        pace_.ask(1);
     }
 }
 
-void ViewerWindow::showTitle(double seconds)
+void ViewerWindow::showTitle()
 {
-    frameSeconds_ = frameSeconds_ > 0 ? 0.8 * frameSeconds_ + 0.2 * seconds : seconds;
-    if (framesLeft_ > 0 && sinceTitle_.seconds() < kTitleSeconds) {
+    if (pace_.isDue() && sinceTitle_.seconds() < kTitleSeconds) {
         return; // window managers draw it anew each time
     }
     sinceTitle_.lap();
     const std::filesystem::path& surface = input_.choices.surface;
     const std::string name = surface.empty() ? session_.state.material : surface.stem().string();
     window_.setTitle(
-        fmt::format("{} - nacre - {} - {:.1f} ms a frame", name, context_.info().name, 1000 * frameSeconds_));
+        fmt::format("{} - nacre - {} - {:.1f} ms a frame", name, context_.info().name, 1000 * pace_.seconds()));
 }
 
 } // namespace
@@ -428,29 +395,6 @@ void runViewer(const Context& context, ViewState state, Choices choices, const S
     resolveCaptured(state, choices.captured);
     requireShown(state);
     ViewerWindow(context, std::move(state), std::move(choices), source, options).run();
-}
-
-void viewHeadless(const Context& context, ViewState state, const Choices& choices, const SceneSource& source,
-                  const std::filesystem::path& output)
-{
-    resolveCaptured(state, choices.captured);
-    requireShown(state);
-    ViewPictures pictures(context);
-    if (state.show == Show::verdicts) {
-        source.photographs->load([](float) {}, false);
-        pictures.setPhotographs(source.photographs.get());
-    }
-    pictures.setScene(loadScene(source, state, choices, {}, {}), state);
-    const glm::vec3 view = viewDirectionOf(state);
-    requireResidual(pictures.scene().main->surface, view, state.residual);
-    pictures.apply(state, view, choices.captured);
-    saveScreenshot(output, pictures.picture(), state);
-    if (const double share = pictures.uncertainShare(); share > 0) {
-        fmt::print("uncertain    {}, judged by the BRDF alone\n", describeUncertainShare(share));
-    }
-    if (!pictures.verdicts().empty()) {
-        fmt::print("verdicts     {}\n", describeVerdicts(pictures.verdicts()));
-    }
 }
 
 } // namespace nacre

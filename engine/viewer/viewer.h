@@ -18,8 +18,4 @@ struct ViewerOptions {
 void runViewer(const Context& context, ViewState state, Choices choices, const SceneSource& source,
                const ViewerOptions& options);
 
-// The picture of the state, written as a screenshot is, without a window.
-void viewHeadless(const Context& context, ViewState state, const Choices& choices, const SceneSource& source,
-                  const std::filesystem::path& output);
-
 } // namespace nacre

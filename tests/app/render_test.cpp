@@ -269,7 +269,7 @@ TEST_F(RenderTest, SequencesAreNumbered)
     EXPECT_TRUE(std::filesystem::exists(path("turn_0004.png")));
     expectRefusal(render("turn.png", {"--frames", "4"}), 3, "--force");
     expectRefusal(render("new.png", {"--frames", "0"}), 2, "1 to 10000");
-    expectRefusal(render("new.png", {"--motion", "jump"}), 2, "turntable, sweep or none");
+    expectRefusal(render("new.png", {"--motion", "jump"}), 2, "turntable, sweep, object or none");
 }
 
 TEST_F(RenderTest, PathsAgreeAndSayWhatTheyAre)

@@ -80,6 +80,36 @@ TEST_F(LibraryTest, APictureIsThatOfRender)
     EXPECT_EQ(loadImage(path("out/rig-1_a_on_head.png")).values, loadImage(path("render.png")).values);
 }
 
+TEST_F(LibraryTest, MeshesAreTurnedAsRenderTurnsThem)
+{
+    const std::string mesh = write("roof.obj", "v -1 0 0\nv 1 0 0\nv 0 1 0.5\nv 0 -1 0.2\nf 1 2 3\nf 2 1 4\n");
+    const std::string material = saveMaterials("a.nacre", {"skin"});
+    const ProgramRun run =
+        transfer({"--materials", material, "--onto", mesh, "--turn", "30,10", "--rig", write("rig.json", kRig) + "#1"});
+    ASSERT_EQ(run.exitCode, 0) << run.err;
+    const auto render = [&](const std::string& name, const std::vector<std::string>& more) {
+        std::vector<std::string> arguments = {
+            "render",  "--material",           material, "--onto", mesh, "--size",  "64x48",
+            "--quiet", "--light=0.3,0.4,0.87", "--path", "direct", "-o", path(name)};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        EXPECT_EQ(runNacre(arguments).exitCode, 0);
+    };
+    render("turned.png", {"--turn", "30,10"});
+    EXPECT_EQ(loadImage(path("out/rig-1_a_on_roof.png")).values, loadImage(path("turned.png")).values);
+    render("still.png", {});
+    EXPECT_NE(loadImage(path("still.png")).values, loadImage(path("turned.png")).values);
+
+    render("around.png", {"--frames", "4", "--motion", "object", "--turn", "30,10", "--exposure", "0"});
+    for (int frame = 0; frame < 4; ++frame) {
+        render("one.png", {"--turn", std::to_string(30 + 90 * frame) + ",10", "--exposure", "0", "--force"});
+        EXPECT_EQ(loadImage(path("around_000" + std::to_string(frame + 1) + ".png")).values,
+                  loadImage(path("one.png")).values)
+            << frame;
+    }
+    expectOneLine(transfer({"--materials", material, "--onto", "make:head", "--turn", "30,10", "--force"}), 2,
+                  {"--turn has nothing to turn"});
+}
+
 TEST_F(LibraryTest, EveryRigHasASheetOfEveryMaterialOnEveryTarget)
 {
     const ProgramRun run = transfer({"--materials", "lambert:0.5,0.2,0.1,lambert:0.3", "--materials", "ggx:alpha=0.5",

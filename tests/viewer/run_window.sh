@@ -168,9 +168,21 @@ screenshot; still=$shot
 drag 2 600 300 640 320 680 310; screenshot
 check "a middle drag turns a mesh" holds "$shot" '"turn"'
 check_later "and its state gives the picture" reproduces "$shot"
+press o
+drag 2 600 300 580 300 560 300; screenshot
+check "O turns lights with it" differs_in_light "$still" "$shot"
 press r; screenshot
 check "turned back it has the same bytes" cmp "$still" "$shot"
 check "no message of Vulkan's validation with a mesh" quits_quietly
+
+shots=$work/shots6; rm -rf "$shots"; mkdir -p "$shots"
+open_window --onto make:sphere --material 'ggx:diffuse=0.1;specular=0.5;alpha=0.02' --size 320x320
+xdotool mousemove 600 340 mousedown 3 mousemove 580 330 sleep 0.1 mousemove 560 300 sleep 0.1 mousemove 520 320
+screenshot; held=$shot
+check_later "a screenshot is full while a sharp highlight is dragged" reproduces "$held"
+xdotool mouseup 3; screenshot
+check "and the same once it is let go" cmp "$held" "$shot"
+check "no message of Vulkan's validation with a sharp highlight" quits_quietly
 
 unset DISPLAY
 code=0; "$nacre" view "$work/bumpy.nacre" 2>"$work/err" || code=$?

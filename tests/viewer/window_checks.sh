@@ -36,6 +36,7 @@ finish_checks() {
 state_of() { echo "${1%.png}.json"; }
 holds() { grep -qF -- "$2" "$(state_of "$1")"; }
 lacks() { ! holds "$@"; }
+differs_in_light() { ! diff -q <(grep -A3 '"light"' "$(state_of "$1")") <(grep -A3 '"light"' "$(state_of "$2")") >/dev/null; }
 differs() { ! cmp -s "$1" "$2"; }
 # The screen of 1280x720 without its status line, whose words come and go by themselves.
 grab() { import -window root -crop 1280x694+0+0 +repage "$work/$1.png"; }
