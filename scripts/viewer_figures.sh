@@ -5,16 +5,16 @@ set -euo pipefail
 cd "$(dirname "$0")/.."
 . scripts/window_driver.sh
 set_stage "${1:-build/release/app/nacre}"
-state=$work/ball_path.json # cast shadows would be drawn directly
-echo '{"format": "nacre scene", "version": 1, "shadows": false}' >"$state"
-lights=(--state "$state" --light 0.3,0.4,0.87 --light=-0.6,0.2,0.8,0.3,0.5,1 --light 0.5,-0.5,0.7,0.8,0.6,0.3 --light=0,0.7,0.7,0.2,0.2,0.2)
+flat=$work/flat.json # cast shadows are drawn directly, others from balls
+echo '{"format": "nacre scene", "version": 1, "shadows": false}' >"$flat"
+lights=(--light 0.3,0.4,0.87 --light=-0.6,0.2,0.8,0.3,0.5,1 --light 0.5,-0.5,0.7,0.8,0.6,0.3 --light=0,0.7,0.7,0.2,0.2,0.2)
 
 ticks() { awk '{ print $14 + $15 }' "/proc/$window_id/stat"; } # hundredths of a second of one core
 
 # Drags a light for so many seconds, quits, and prints how many pictures the window showed since it opened, and the
 # processor's time that it took.
 pictures_after() { # SECONDS
-    open_window "$work/bumpy.nacre" --size "$size" "${lights[@]}"
+    open_window --size "$size" "${lights[@]}" "${shown[@]}"
     sleep 3
     if [ "$1" -gt 0 ]; then
         xdotool mousemove 1116 100 mousedown 1
@@ -36,14 +36,20 @@ pictures_after() { # SECONDS
 }
 
 seconds=8
+drag_light() { # SIZE WORDS ARGUMENTS of nacre view
+    size=$1 words=$2 shown=("${@:3}")
+    local start=$(pictures_after 0) moved=$(pictures_after $seconds)
+    echo "$start $moved" | awk -v s=$seconds -v z="$size$words" '{ n = $3 - $1
+        printf "dragging    %.0f frames a second, %.0f ms of processor time each, %s\n", n / s, 10 * ($4 - $2) / n, z }'
+}
 for size in 320x320 730x694 1280x720; do
-    start=$(pictures_after 0) moved=$(pictures_after $seconds)
-    echo "$start $moved" | awk -v s=$seconds -v z=$size '{ n = $3 - $1
-        printf "dragging    %.0f frames a second, %.0f ms of processor time each, surface of %s\n", n / s, 10 * ($4 - $2) / n, z }'
+    drag_light "$size" "" "$work/bumpy.nacre" --state "$flat"
 done
+drag_light 730x694 " with cast shadows" "$work/bumpy.nacre"
+drag_light 730x694 " under a sharp highlight" --onto make:sphere --material 'ggx:diffuse=0.1;specular=0.5;alpha=0.02'
+"$nacre" bench --size 1280x720 --lights 4 --residual-components 0 --most-direct-lights 1 | grep -m 2 'ball' # wall time
 
-size=730x694
-open_window "$work/bumpy.nacre" --size "$size" "${lights[@]}"
+open_window --size 730x694 "${lights[@]}" "$work/bumpy.nacre" --state "$flat"
 sleep 3
 idle=10
 before=$(ticks); sleep $idle; after=$(ticks)
