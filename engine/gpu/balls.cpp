@@ -106,6 +106,9 @@ void BallCache::setLights(std::span<const Light> lights, std::span<const LightRa
             chunks.push_back({first, std::min(first + kLightsPerChunk, range.last)});
         }
     }
+    if (chunks.empty()) {
+        chunks.push_back({}); // without lights balls are black
+    }
     std::vector<uint8_t> isStale(chunks.size(), 1);
     bool isOther = chunks.size() != chunks_.size();
     for (size_t i = 0; i < std::min(chunks.size(), chunks_.size()); ++i) {
