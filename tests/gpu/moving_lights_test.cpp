@@ -36,6 +36,12 @@ TEST(MovingLightsTest, KeepTheirsApartFromThoseThatStay)
     EXPECT_EQ(moving.follow(lights).moved, (LightRange{0, 5}));
 }
 
+Material ggx(float alpha)
+{
+    const LambertGgx model{.diffuse = {0.4f, 0.2f, 0.05f}, .specular = glm::vec3(0.05f, 0.1f, 0.5f), .alpha = alpha};
+    return {"ggx", tabulatedBrdf(model), {}};
+}
+
 class MovingLightsOnDeviceTest : public GpuTest {};
 
 TEST_F(MovingLightsOnDeviceTest, ALightThatMovesCostsItself)
@@ -59,6 +65,7 @@ TEST_F(MovingLightsOnDeviceTest, PicturesAreNearToThoseAtRestAndThenTheSame)
     for (const RenderPath path : {RenderPath::ball, RenderPath::direct}) {
         for (const Show show : {Show::picture, Show::coverage}) {
             Scene scene = glossyScene(120, 80);
+            scene.surface.materials[0] = ggx(0.3f); // whose balls are small enough to move
             scene.lights = capOfLights(7, 60);
             Renderer renderer = rendererOf(scene, path);
             renderer.setShow(show);
@@ -83,7 +90,7 @@ TEST_F(MovingLightsOnDeviceTest, PicturesAreNearToThoseAtRestAndThenTheSame)
 TEST_F(MovingLightsOnDeviceTest, SharpHighlightsAreCoarseWhileLightsMove)
 {
     Scene scene = glossyScene(120, 80);
-    scene.surface.materials[0] = {"mirror", tabulatedBrdf(LambertGgx{.alpha = 0.002f}), {}};
+    scene.surface.materials[0] = ggx(0.002f);
     Renderer renderer = rendererOf(scene, RenderPath::automatic);
     EXPECT_EQ(renderer.pathTaken(), RenderPath::direct);
     EXPECT_FALSE(renderer.isCoarse());
