@@ -71,6 +71,16 @@ Surface rowsOf(const Surface& surface, int first, int count)
     return rows;
 }
 
+// What of `part` lies in the rows, which begin at row 0 of their own.
+VkRect2D inRows(const VkRect2D& part, const VkRect2D& rows)
+{
+    const int end = part.offset.y + static_cast<int>(part.extent.height) - rows.offset.y;
+    const int low = std::max(part.offset.y - rows.offset.y, 0),
+              high = std::min(end, static_cast<int>(rows.extent.height));
+    return {.offset = {part.offset.x, low},
+            .extent = {part.extent.width, static_cast<uint32_t>(std::max(high - low, 0))}};
+}
+
 void copyRows(const Buffer& texels, Frame& frame, int first, int count)
 {
     const auto* from = static_cast<const glm::vec4*>(texels.mapped());
@@ -213,6 +223,7 @@ void DirectFrame::recordStill(VkCommandBuffer commands, const PixelTextures& pix
     kept_ = std::move(wanted);
     imageBarrier(commands, still_.image(), kDiscarded, kDrawnTo);
     beginRendering(commands, still_, Load::clear);
+    vkCmdSetScissor(commands, 0, 1, &pixels.shown);
     recordLights(commands, pixels, inputs, inputs.still, 0, coverage);
     vkCmdEndRendering(commands);
     imageBarrier(commands, still_.image(), kDrawnTo, kSampled);
@@ -224,6 +235,8 @@ void DirectFrame::recordRows(VkCommandBuffer commands, const PixelTextures& pixe
 {
     imageBarrier(commands, band_.image(), kDiscarded, kDrawnTo);
     beginRendering(commands, band_, Load::clear, {.offset = {}, .extent = rows.extent});
+    const VkRect2D shown = inRows(pixels.shown, rows);
+    vkCmdSetScissor(commands, 0, 1, &shown);
     if (fromStill) {
         const std::array kept = {textureInput(kBindingInput, nearest_, still_)};
         draw(context_, commands, add_, kept, {});
@@ -254,7 +267,10 @@ void DirectFrame::recordPicture(VkCommandBuffer commands, const PixelTextures& p
                             .extent = {size.width, static_cast<uint32_t>(std::min(atOnce, height - first))}};
         recordRows(commands, pixels, inputs, rows, look.hatched, keeps);
         imageBarrier(commands, band_.image(), kDrawnTo, kSampled);
-        beginRendering(commands, codes, Load::clear, rows);
+        VkRect2D shown = inRows(pixels.shown, rows);
+        shown.offset.y += first;
+        beginRendering(commands, codes, Load::keep, rows);
+        vkCmdSetScissor(commands, 0, 1, &shown);
         const std::array shaderInputs = {textureInput(kBindingInput, nearest_, band_)};
         draw(context_, commands, encode, shaderInputs,
              bytesOf(DisplayConstants{.gain = std::exp2(look.display.exposureStops), .firstRow = first}));

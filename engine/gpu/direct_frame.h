@@ -80,7 +80,8 @@ public:
 
     // Drops what was made for another surface.
     void reset();
-    // `codes` has kCodeFormat and the size of `pixels`; it is in kDrawnTo.
+    // `codes` has kCodeFormat and the size of `pixels`; it is in kDrawnTo. Of its pixels only those of pixels.shown are
+    // drawn.
     void recordPicture(VkCommandBuffer commands, const PixelTextures& pixels, const Inputs& inputs, const Look& look,
                        const Texture& codes);
     // Linear radiance from 32-bit inputs. `pixels` is the same surface from one reset to the next.

@@ -295,7 +295,7 @@ void Renderer::drawDirectly(const Shaded& shaded)
     const DirectFrame::Look look{display_, show_ == Show::coverage};
     const PixelTextures& from = shaded.canvas.pixels(shaded.pixels, plain_);
     const DirectFrame::Inputs lit = inputs(1);
-    shaded.canvas.draw(Canvas::Draws::everything, shaded.pixels, [&](VkCommandBuffer commands, const Texture& codes) {
+    shaded.canvas.draw(Canvas::Draws::whatIsShown, shaded.pixels, [&](VkCommandBuffer commands, const Texture& codes) {
         shaded.canvas.directFrame.recordPicture(commands, from, lit, look, codes);
     });
 }
