@@ -6,6 +6,7 @@
 
 #include "acquisition/capture/capture_layouts.h"
 #include "acquisition/capture/capture_maps.h"
+#include "acquisition/capture/light_search.h"
 #include "engine/files/error.h"
 #include "engine/files/text_files.h"
 
@@ -17,9 +18,8 @@ namespace {
 constexpr size_t kFewestPhotographs = 3; // a normal has two degrees of freedom, the albedo is the third
 constexpr const char* kLayouts =
     "capture.json; filenames.txt with light_directions.txt (DiLiGenT); one .lp file here or above, beside its "
-    "photographs "
-    "(RTI); photographs NAME.0.*, NAME.1.*, ... with NAME.mask.* (University of Washington); or any photographs with "
-    "--rig or --mirror-sphere";
+    "photographs (RTI); photographs NAME.0.*, NAME.1.*, ... with NAME.mask.* (University of Washington); or any "
+    "photographs with a list of their lights, --rig or --mirror-sphere";
 
 // A list of photographs by its own name.
 std::optional<LayoutContents> readList(const fs::path& file)
@@ -44,7 +44,7 @@ LayoutContents readLayout(const fs::path& folder, const CaptureOptions& options)
     if (!contents) {
         contents = readUwLayout(folder);
     }
-    if (!contents && (!options.rig.empty() || !options.mirrorSphere.empty())) {
+    if (!contents) {
         contents = readPlainFolder(folder);
     }
     if (!contents) {
@@ -167,6 +167,24 @@ void requireSphereMask(const std::optional<SpherePhotographs>& sphere)
     }
 }
 
+// The rig that was chosen or, where a capture has no lights and no mirror sphere, lights that are found beside its
+// photographs or in their names.
+void assignLightsOf(LayoutContents& contents, const CaptureOptions& options)
+{
+    std::optional<FoundLights> found;
+    if (!options.rig.empty()) {
+        found = {loadLightFile(options.rig), options.rig};
+    } else if (contents.capture.lights.empty() && !contents.capture.mirrorSphere) {
+        const bool mayFind = contents.capture.layout != CaptureLayout::json; // which says all itself
+        found = mayFind ? searchLights(contents, options.skip.size()) : std::nullopt;
+        if (!found && options.needsLights) {
+            throw withoutLights(contents);
+        }
+    }
+    skipAndAssignRig(contents, options.skip, found ? std::optional(found->lights) : std::nullopt,
+                     found ? found->source : fs::path());
+}
+
 } // namespace
 
 std::string describe(CaptureLayout layout)
@@ -179,7 +197,7 @@ std::string describe(CaptureLayout layout)
     case CaptureLayout::rti:
         return "RTI";
     case CaptureLayout::pictures:
-        return "pictures in order,";
+        return "plain";
     case CaptureLayout::json:
         break;
     }
@@ -191,7 +209,7 @@ Capture loadCapture(const fs::path& folder, const CaptureOptions& options)
     LayoutContents contents = readLayout(folder, options);
     applyOptions(contents, options);
     requireCounts(contents);
-    skipAndAssignRig(contents, options.skip, options.rig);
+    assignLightsOf(contents, options);
     requireCounts(contents);
     placeLights(contents, options);
     examineHeaders(contents, options.transfer);

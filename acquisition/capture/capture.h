@@ -129,7 +129,8 @@ struct CaptureOptions {
     std::optional<double> lightDistance; // in widths of the object; infinite: distant, whatever the photographs tell
     std::optional<double> objectWidth;   // in the unit in which a file places the lights
     std::optional<double> fieldOfView;   // degrees across the files' width
-    std::filesystem::path rig;           // lights from another file: .lp, or the JSON that synth and calibrate write
+    std::filesystem::path rig;           // lights from another file, as loadLightFile reads them
+    bool needsLights = false;            // a capture that says nothing of its lights is refused
 };
 
 // Finds out the layout (docs/formats.md) and checks all that can be checked without decoding every photograph:

@@ -45,10 +45,10 @@ std::vector<size_t> lightsByName(const LightFile& lights, const std::vector<Phot
 // Irradiances from a file with one for each of the lights. Throws Error where the counts differ.
 void addIrradiances(LightFile& lights, const std::filesystem::path& file);
 
-// Leaves out the photographs named, and puts the rig's lights (empty: none) in place of the capture's: those of all
+// Leaves out the photographs named, and puts the rig's lights, if any, in place of the capture's: those of all
 // photographs, or of those that are not left out.
 void skipAndAssignRig(LayoutContents& contents, const std::vector<std::string>& skip,
-                      const std::filesystem::path& rigFile);
+                      const std::optional<LightFile>& rig, const std::filesystem::path& file);
 
 // Makes places, in widths of the object, of the vectors that the lights came with where that unit is known, and drops
 // them elsewhere. Throws Error (data) where they are no places.

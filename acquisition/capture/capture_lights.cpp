@@ -188,17 +188,17 @@ void addIrradiances(LightFile& lights, const fs::path& file)
     lights.irradianceGiven = true;
 }
 
-void skipAndAssignRig(LayoutContents& contents, const std::vector<std::string>& skip, const fs::path& rigFile)
+void skipAndAssignRig(LayoutContents& contents, const std::vector<std::string>& skip,
+                      const std::optional<LightFile>& rig, const fs::path& file)
 {
     markSkipped(contents.capture.photographs, skip);
-    const std::optional<LightFile> rig = rigFile.empty() ? std::nullopt : std::optional(loadLightFile(rigFile));
     const bool hasAll = rig && rig->lights.size() == contents.capture.photographs.size();
     if (hasAll) {
-        assignLights(contents, *rig, rigFile);
+        assignLights(contents, *rig, file);
     }
     dropSkipped(contents.capture);
     if (rig && !hasAll) {
-        assignLights(contents, *rig, rigFile);
+        assignLights(contents, *rig, file);
     }
 }
 

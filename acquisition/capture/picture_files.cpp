@@ -146,7 +146,8 @@ std::optional<NumberedPictures> findNumberedPictures(const fs::path& folder)
     if (std::any_of(named.begin(), named.end(), [](const auto& entry) { return !entry.second.masks.empty(); })) {
         std::erase_if(named, [](const auto& entry) { return entry.second.masks.empty(); });
     }
-    if (named.empty()) {
+    const bool areMasked = !named.empty() && !named.begin()->second.masks.empty();
+    if (named.empty() || (named.size() > 1 && !areMasked)) {
         return std::nullopt;
     }
     if (named.size() > 1) {

@@ -26,8 +26,8 @@ struct NumberedPictures {
     std::vector<std::filesystem::path> masks;
 };
 
-// Empty where no picture is numbered. Of several names those with a mask count. Throws Error where two photographs
-// share a number, or where several names remain.
+// Empty where no picture is numbered, or several names are and none has a mask: numbers may be anything's. Of several
+// names those with a mask count. Throws Error where two photographs share a number, or where several names remain.
 std::optional<NumberedPictures> findNumberedPictures(const std::filesystem::path& folder);
 
 } // namespace nacre

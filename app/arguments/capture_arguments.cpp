@@ -278,11 +278,8 @@ Capture CalibrationArguments::load()
         capture.mirrorSphere = mirrorSpheres.front();
         capture.moreMirrorSpheres = {mirrorSpheres.begin() + 1, mirrorSpheres.end()};
     }
-    Capture loaded = loadCapture(folder, capture);
-    if (loaded.lights.empty() && !loaded.mirrorSphere) {
-        throw Error(folder, "says nothing of its lights",
-                    "light directions, photographs of a mirror sphere (--mirror-sphere DIR), or a rig (--rig FILE)");
-    }
+    capture.needsLights = true;
+    const Capture loaded = loadCapture(folder, capture);
     AcquireOptions options;
     options.calibration = calibrationOptions();
     options.setThreads(threads);

@@ -76,9 +76,11 @@ std::string describeSphere(const std::optional<SpherePhotographs>& sphere)
     return sphere ? fmt::format("{} photographs, {}", sphere->photographs.size(), sphere->source.string()) : "none";
 }
 
-void printCapture(const std::filesystem::path& folder)
+void printCapture(const std::filesystem::path& folder, const std::filesystem::path& mask)
 {
-    const Capture capture = loadCapture(folder);
+    CaptureOptions options;
+    options.mask = mask;
+    const Capture capture = loadCapture(folder, options);
     ObservationReader reader(capture); // to the end, as a picture may be cut off
     for (Observations block; reader.next(block);) {
     }
@@ -103,8 +105,12 @@ bool isCapture(const std::filesystem::path& path)
                                                : path.filename() == "capture.json";
 }
 
-void runInfo(const std::filesystem::path& path)
+void runInfo(const std::filesystem::path& path, const std::filesystem::path& mask)
 {
+    const bool isOfCapture = !path.empty() && isCapture(path) && !std::filesystem::exists(path / "surface.json");
+    if (!mask.empty() && !isOfCapture) {
+        throw Error(path, "is no folder of photographs, to which --mask belongs", "one", Error::kUsage);
+    }
     if (path.empty()) {
         printDevices();
     } else if (!std::filesystem::exists(path)) {
@@ -114,7 +120,7 @@ void runInfo(const std::filesystem::path& path)
     } else if (std::filesystem::exists(path / "surface.json")) {
         printSurface(path);
     } else {
-        printCapture(path);
+        printCapture(path, mask);
     }
 }
 
@@ -127,8 +133,10 @@ void addInfoCommand(CLI::App& app)
     command->add_option(
         "PATH", *path,
         "Folder NAME.nacre, folder of photographs, or a file that Nacre reads or writes (default: Vulkan devices)");
+    auto mask = std::make_shared<std::filesystem::path>();
+    command->add_option("--mask", *mask, "Picture that is white on the object of the photographs")->option_text("FILE");
     command->footer("Example:\n  nacre info\n  nacre info horse.nacre");
-    command->callback([path] { runInfo(*path); });
+    command->callback([path, mask] { runInfo(*path, *mask); });
 }
 
 } // namespace nacre

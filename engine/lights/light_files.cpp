@@ -10,6 +10,7 @@
 #include "engine/files/strict_json.h"
 #include "engine/files/text_files.h"
 #include "engine/files/whole_file.h"
+#include "engine/lights/npy_file.h"
 
 namespace nacre {
 namespace fs = std::filesystem;
@@ -136,6 +137,9 @@ LightFile loadLightFile(const fs::path& file)
     const std::string extension = lowerCase(file.extension().string());
     if (extension == ".yml" || extension == ".yaml") {
         return loadOpenCvMatrix(file);
+    }
+    if (extension == ".npy") {
+        return lightsOf(file, vectorsOf(file, loadNpyTable(file)));
     }
     if (extension == ".lp") {
         return loadLpFile(file);

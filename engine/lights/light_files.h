@@ -19,8 +19,8 @@ struct LightFile {
     bool irradianceGiven = false;         // false: irradiance 1
 };
 
-// By extension: `.lp`, `.json` ("nacre lights", docs/formats.md), `.yml` (a matrix of OpenCV), anything else a table of
-// directions.
+// By extension: `.lp`, `.json` ("nacre lights", docs/formats.md), `.yml` (a matrix of OpenCV), `.npy` (NumPy), anything
+// else a table of directions.
 LightFile loadLightFile(const std::filesystem::path& file);
 
 // RTI: the count of lights, which may be missing, then "file x y z" a line; names may hold spaces.

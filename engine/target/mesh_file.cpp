@@ -17,6 +17,7 @@
 #include "engine/files/error.h"
 #include "engine/files/text_files.h"
 #include "engine/files/whole_file.h"
+#include "engine/target/mesh_trial.h"
 #include "engine/target/ply_size.h"
 #include "engine/target/texture_files.h"
 
@@ -363,6 +364,7 @@ Mesh loadMesh(const fs::path& file, const MeshFileOptions& options)
     if (lowerExtension(file) == ".gltf" || lowerExtension(file) == ".glb") {
         requireKnownExtensions(file);
     }
+    requireHarmlessMesh(file);
     Assimp::Importer importer;
     importer.SetPropertyFloat(AI_CONFIG_PP_GSN_MAX_SMOOTHING_ANGLE, kCreaseAngle);
     const aiScene* read = importer.ReadFile(file.string(), aiProcess_Triangulate);

@@ -41,9 +41,11 @@ TEST_F(CaptureChecks, MissingFolder)
 
 TEST_F(CaptureChecks, AFolderWithoutCaptureSaysWhatWasLookedFor)
 {
-    writePicture(folder_ / "empty" / "holiday.jpg", 1);
+    writeText(folder_ / "empty" / "holiday.doc", "");
     expectError([&] { loadCapture(folder_ / "empty"); },
                 {"empty", "holds no capture", "capture.json", "filenames.txt", ".lp", "NAME.0.*", "NAME.mask.*"});
+    writePicture(folder_ / "empty" / "holiday.jpg", 1);
+    expectError([&] { loadCapture(folder_ / "empty"); }, {"empty", "1 photographs", "at least 3"});
 }
 
 TEST_F(CaptureChecks, FewerThanThreePhotographs)

@@ -139,13 +139,87 @@ TEST(CapturePictures, AnyFolderWithARig)
         rig += "dome" + std::to_string(i) + ".png 0 " + std::to_string(i) + " 1\n";
     }
     writeText(folder / "rig.lp", rig);
-    expectError([&] { loadCapture(folder / "c"); }, {"holds no capture", "--rig"});
+    EXPECT_TRUE(loadCapture(folder / "c").lights.empty());
     CaptureOptions options;
     options.rig = folder / "rig.lp";
     const Capture capture = loadCapture(folder / "c", options);
     EXPECT_EQ(capture.layout, CaptureLayout::pictures);
     EXPECT_EQ(capture.photographs[2].name, "DSC_10.png");
     EXPECT_GT(capture.lights[2].direction.y, capture.lights[1].direction.y);
+}
+
+class CaptureLists : public testing::Test {
+protected:
+    void writePhotographs(const std::vector<std::string>& names)
+    {
+        for (const std::string& name : names) {
+            writePicture(folder_ / name, static_cast<int>(&name - names.data()) + 1);
+        }
+    }
+    Capture load()
+    {
+        CaptureOptions options;
+        options.needsLights = true;
+        return loadCapture(folder_.path(), options);
+    }
+    TempFolder folder_;
+};
+
+TEST_F(CaptureLists, BesideThePhotographs)
+{
+    writePhotographs({"a1.png", "a2.png", "a10.png"});
+    writeText(folder_ / "points.txt", "1 2 3\n4 5 6\n");
+    writeText(folder_ / "notes.txt", "three lights\n");
+    writeText(folder_ / "lightvec.txt", "0 0 1\n3 0 4\n0 3 4\n");
+    writeText(folder_ / "intensities.txt", "1\n2\n3\n");
+    const Capture capture = load();
+    EXPECT_EQ(capture.layout, CaptureLayout::pictures);
+    EXPECT_EQ(capture.lightsSource, (folder_ / "lightvec.txt").string());
+    EXPECT_NEAR(capture.lights[2].direction.y, 0.6f, 1e-6f); // of a10.png
+    EXPECT_TRUE(capture.irradianceGiven);
+    EXPECT_EQ(capture.lights[2].irradiance.x, 3);
+    writeText(folder_ / "others.csv", "0,0,1\n3,0,4\n0,3,4\n");
+    expectError([&] { load(); }, {"several lists of 3 lights", "lightvec.txt", "others.csv", "--rig"});
+}
+
+// Each states the direction (0.6, 0, 0.8) of its second photograph.
+TEST_F(CaptureLists, DirectionsInNames)
+{
+    const std::vector<std::string> notations[] = {
+        {"Sphere_0.0_0.0_1.0.png", "Sphere_0.6_0.0_0.8.png", "Sphere_-0.6_0.0_0.8.png"},
+        {"tl000_pl000.png", "tl36.87_pl000.png", "tl36.87_pl180.png"},
+        {"yaleB01_P00A+000E+00.png", "yaleB01_P00A+037E+00.png", "yaleB01_P00A-037E+00.png"}};
+    for (const auto& names : notations) {
+        fs::remove_all(folder_.path());
+        writePhotographs(names);
+        for (const Capture& capture : {load()}) {
+            for (size_t i = 0; i < 3; ++i) {
+                const bool isTurned = capture.photographs[i].name == names[1];
+                EXPECT_EQ(capture.lights[i].direction.x > 0.5f, isTurned) << capture.photographs[i].name;
+                EXPECT_NEAR(capture.lights[i].direction.y, 0, 1e-6f);
+            }
+        }
+    }
+}
+
+// Two numbers may be coordinates or angles of several kinds: nobody guesses.
+TEST_F(CaptureLists, AreMissedInThreeLines)
+{
+    writePhotographs({"Sphere_-0.5_1.0.png", "Sphere_-0.5_1.5.png", "Sphere_0.5_1.0.png", "wide.jpg"});
+    writeMask(folder_ / "mask.png");
+    writeText(folder_ / "lights.npy", "\x93NUMPY");
+    writeText(folder_ / "lights.txt", "0 0 1\n0 1 1\n");
+    try {
+        load();
+        ADD_FAILURE();
+    } catch (const Error& error) {
+        const std::string message = error.what();
+        EXPECT_EQ(std::count(message.begin(), message.end(), '\n'), 2) << message;
+        for (const char* part : {"1 .jpg of 8x6, 3 .png of 8x6", "mask.png", "lights.txt with 2 lights", "lights.npy",
+                                 "--rig", "--mirror-sphere", ".lp"}) {
+            EXPECT_NE(message.find(part), std::string::npos) << part << " is not in: " << message;
+        }
+    }
 }
 
 TEST_F(CaptureRti, MasksMayLieInAlpha)

@@ -56,6 +56,37 @@ TEST_F(LightFiles, TableOfThreeLines)
     expectVector(directions[3], {0.6f, 0, 0.8f});
 }
 
+// As numpy.save writes a 2 x 3 array.
+std::string npyBytes(const std::string& type, const std::string& isFortran, const std::string& data)
+{
+    std::string header = "{'descr': '" + type + "', 'fortran_order': " + isFortran + ", 'shape': (2, 3), }";
+    header.resize(117, ' ');
+    return std::string("\x93NUMPY\1\0", 8) + static_cast<char>(header.size() + 1) + '\0' + header + '\n' + data;
+}
+
+template <class Value> std::string bytesOf(const std::vector<Value>& values)
+{
+    return {reinterpret_cast<const char*>(values.data()), values.size() * sizeof(Value)};
+}
+
+TEST_F(LightFiles, TablesOfNumPy)
+{
+    const std::string doubles = bytesOf<double>({0, 0, 2, 3, 0, 4}), floats = bytesOf<float>({0, 0, 2, 3, 0, 4});
+    for (const std::string& bytes : {npyBytes("<f8", "False", doubles), npyBytes("<f4", "False", floats)}) {
+        const std::vector<Light> lights = loadLightFile(write("l.npy", bytes)).lights;
+        ASSERT_EQ(lights.size(), 2u);
+        expectVector(lights[1].direction, {0.6f, 0, 0.8f});
+    }
+    const auto expectRefused = [&](const std::string& bytes, const std::string& part) {
+        expectError([&] { loadLightFile(write("l.npy", bytes)); }, {"l.npy", part, "C order"});
+    };
+    expectRefused(npyBytes("<f8", "True", doubles), "column by column: True");
+    expectRefused(npyBytes(">f8", "False", doubles), "'>f8'");
+    expectRefused(npyBytes("<i4", "False", floats), "'<i4'");
+    expectRefused(npyBytes("<f8", "False", floats), "2 x 3 numbers and holds 3");
+    expectRefused("1 0 0\n", "does not begin");
+}
+
 TEST_F(LightFiles, ThreeByThreeIsOneLightALine)
 {
     const auto directions = loadDirections(write("l.txt", "1 2 2\n0 1 0\n0 0 1\n"));

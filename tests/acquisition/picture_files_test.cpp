@@ -76,6 +76,9 @@ TEST(PictureFiles, RefusesANumberTwiceAndTwoNames)
     expectError([&] { findNumberedPictures(folder.path()); }, {"same number", "cat.1.png", "cat.01.tga"});
     std::filesystem::remove(folder / "cat.01.tga");
     writeText(folder / "dog.1.png", "");
+    EXPECT_FALSE(findNumberedPictures(folder.path())); // the numbers may be anything's
+    writeText(folder / "cat.mask.png", "");
+    writeText(folder / "dog.mask.png", "");
     expectError([&] { findNumberedPictures(folder.path()); }, {"2 names", "cat", "dog"});
 }
 

@@ -8,14 +8,17 @@
 #include "acquisition/capture/capture.h"
 #include "acquisition/capture/capture_maps.h"
 #include "engine/brdf/rgl_brdf.h"
+#include "engine/exchange/gltf_file.h"
 #include "engine/files/error.h"
 #include "engine/files/whole_file.h"
 #include "engine/lights/environment.h"
 #include "engine/lights/light_files.h"
 #include "engine/materials/merl_file.h"
 #include "engine/rti/ptm_file.h"
+#include "engine/rti/rti_web.h"
 #include "engine/scene/scene_description.h"
 #include "engine/surface/surface.h"
+#include "engine/target/mesh_file.h"
 #include "tests/support/expect_error.h"
 #include "tests/support/temp_folder.h"
 #include "tests/support/tensor_file.h"
@@ -26,7 +29,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kInputs = 500;
+constexpr int kInputs = 800;
 
 using Random = std::mt19937;
 
@@ -64,6 +67,88 @@ std::string ptmBytes()
     return "PTM_1.2\nPTM_FORMAT_LRGB\n2\n2\n1 1 1 1 1 1\n0 0 0 0 0 128\n" + std::string(4 * 9, '\x40');
 }
 
+// numpy.save of a 4 x 3 array.
+std::string npyFile()
+{
+    std::string header = "{'descr': '<f4', 'fortran_order': False, 'shape': (4, 3), }";
+    header.resize(117, ' ');
+    std::string bytes = std::string("\x93NUMPY\1\0v\0", 10) + header + "\n";
+    for (int i = 0; i < 12; ++i) {
+        appendTo(bytes, static_cast<float>(i));
+    }
+    return bytes;
+}
+
+// One triangle, as scanners write it.
+std::string plyFile()
+{
+    std::string bytes = "ply\nformat binary_little_endian 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+                        "property float z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n";
+    for (const float v : {0.0f, 0.0f, 0.0f, 1.0f, 0.0f, 0.0f, 0.0f, 1.0f, 0.0f}) {
+        appendTo(bytes, v);
+    }
+    bytes += '\3';
+    for (const int32_t i : {0, 1, 2}) {
+        appendTo(bytes, i);
+    }
+    return bytes;
+}
+
+std::string stlFile()
+{
+    std::string bytes(80, ' ');
+    appendTo(bytes, uint32_t{1});
+    for (const float v : {0.0f, 0.0f, 1.0f, 0.0f, 0.0f, 0.0f, 1.0f, 0.0f, 0.0f, 0.0f, 1.0f, 0.0f}) {
+        appendTo(bytes, v);
+    }
+    return bytes + std::string(2, '\0');
+}
+
+constexpr const char* kObj = "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nvn 0 0 1\nusemtl m\n"
+                             "f 1/1/1 2/2/1 3/3/1\n";
+// The buffer: positions, texture coordinates.
+constexpr const char* kGltf =
+    R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
+    "meshes": [{"primitives": [{"attributes": {"POSITION": 0, "TEXCOORD_0": 1}, "material": 0}]}],
+    "materials": [{"normalTexture": {"index": 0, "scale": 0.5}}], "textures": [{"source": 0}],
+    "images": [{"uri": "a.png"}], "buffers": [{"byteLength": 60, "uri": "data:application/octet-stream;base64,
+AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAAAAAAAAAAAAAAAIA/AAAAAAAAAAAAAIA/"}],
+    "bufferViews": [{"buffer": 0, "byteLength": 36}, {"buffer": 0, "byteOffset": 36, "byteLength": 24}],
+    "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3", "min": [0, 0, 0], "max": [1, 1, 0]},
+    {"bufferView": 1, "componentType": 5126, "count": 3, "type": "VEC2"}]})";
+
+void writeMeshes(const TempFolder& folder, std::vector<FuzzedReader>& readers)
+{
+    const auto mesh = [](const fs::path& file) { loadMesh(file); };
+    const auto add = [&](const char* name, const std::string& bytes, const char* read) {
+        writeText(folder / "m" / name, bytes);
+        readers.push_back({folder / "m" / name, folder / "m" / read, mesh});
+    };
+    saveNormalMap(folder / "m" / "a.png", sphereNormalMap(16));
+    std::string gltf = kGltf;
+    gltf.erase(gltf.find(",\nAAAA") + 1, 1);
+    add("a.mtl", "newmtl m\nmap_Bump -bm 1.0 a.png\n", "a.obj");
+    add("a.obj", kObj, "a.obj");
+    add("a.ply", plyFile(), "a.ply");
+    add("a.stl", stlFile(), "a.stl");
+    add("a.gltf", gltf, "a.gltf");
+    saveGlb(folder / "m" / "a.glb", {.name = "ball", .mesh = sphereMesh(1)});
+    readers.push_back({folder / "m" / "a.glb", folder / "m" / "a.glb", mesh});
+}
+
+void writeRtiWeb(const TempFolder& folder, std::vector<FuzzedReader>& readers)
+{
+    RtiPicture picture;
+    for (size_t k = 0; k < rtiTermCount(picture.basis); ++k) {
+        picture.terms.emplace_back(8, 6, 3, 0.1f * static_cast<float>(k));
+    }
+    fs::create_directory(folder / "w");
+    saveRtiWeb(folder / "w", picture, {});
+    for (const auto& entry : fs::directory_iterator(folder / "w")) {
+        readers.push_back({entry.path(), folder / "w", [](const fs::path& f) { loadRtiWeb(f); }});
+    }
+}
+
 std::string merlStart()
 {
     std::string bytes;
@@ -92,6 +177,9 @@ std::vector<FuzzedReader> writeReaders(const TempFolder& folder)
     };
     addText("a.lp", "2\nphoto 1.png 0.1 0.2 0.9 1\nphoto 2.png 0 0 1 1\n", [](const fs::path& f) { loadLpList(f); });
     addText("a.txt", directionLines(4), [](const fs::path& f) { loadLightFile(f); });
+    addText("a.npy", npyFile(), [](const fs::path& f) { loadLightFile(f); });
+    addText("a.yml", "%YAML:1.0\nL: !!opencv-matrix\n  rows: 2\n  cols: 3\n  data: [ 0., 0., 1., 1., 0., 1. ]\n",
+            [](const fs::path& f) { loadLightFile(f); });
     addText("i.txt", "1 2 3\n4 5 6\n", [](const fs::path& f) { loadIrradiances(f); });
     addText(
         "a.json",
@@ -106,6 +194,9 @@ std::vector<FuzzedReader> writeReaders(const TempFolder& folder)
     saveImage(folder / "env.exr", Image(8, 4, 3, 1.0f), PixelType::half);
     add("env.exr", [](const fs::path& f) { loadEnvironment(f); });
 
+    fs::create_directory(folder / "m");
+    writeMeshes(folder, readers);
+    writeRtiWeb(folder, readers);
     Surface surface = transferredSurface(sphereNormalMap(16), {"m", BrdfTable({5, 4, 3}, {kHalfDifference, 0.4f}), {}});
     saveSurface(folder / "s.nacre", surface, false);
     for (const auto& entry : fs::recursive_directory_iterator(folder / "s.nacre")) {
