@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <cstddef>
 
 #include <fmt/format.h>
 
@@ -90,33 +91,84 @@ MergedPixel mergeExposures(std::span<const glm::vec3> values, std::span<const Ex
     return merged;
 }
 
-MergedPhotograph loadMerged(const Photograph& photograph, const Capture& capture)
+namespace {
+
+// Of the files' pixels; not empty.
+FileWindow clippedTo(const ImageHeader& header, const FileWindow& part, const std::filesystem::path& file)
+{
+    FileWindow clipped = part;
+    clipped.x = std::max(part.x, 0);
+    clipped.y = std::max(part.y, 0);
+    clipped.width = std::min(part.x + part.width, header.width) - clipped.x;
+    clipped.height = std::min(part.y + part.height, header.height) - clipped.y;
+    if (clipped.width <= 0 || clipped.height <= 0) {
+        throw Error(file, fmt::format("is {} x {}", header.width, header.height),
+                    fmt::format("a picture that has {}, {}", part.x, part.y));
+    }
+    return clipped;
+}
+
+// Band by band, so that a large file costs what is read of it.
+Image readPart(ImageRows& rows, const FileWindow& part, const std::filesystem::path& file)
+{
+    constexpr int kBand = 32;
+    const int channels = rows.channels();
+    const size_t rowValues = static_cast<size_t>(rows.header().width) * channels,
+                 partValues = static_cast<size_t>(part.width) * channels;
+    Image image(part.width, part.height, channels);
+    std::vector<float> band(kBand * rowValues);
+    for (int y = 0; y < part.height; y += kBand) {
+        const int count = std::min(kBand, part.height - y);
+        rows.read(part.y + y, part.y + y + count, std::span(band).first(count * rowValues));
+        for (int row = 0; row < count; ++row) {
+            const auto from = band.begin() + static_cast<std::ptrdiff_t>(row * rowValues + size_t(part.x) * channels);
+            const auto bad = std::find_if(from, from + static_cast<std::ptrdiff_t>(partValues),
+                                          [](float v) { return !std::isfinite(v); });
+            if (bad != from + static_cast<std::ptrdiff_t>(partValues)) {
+                throw Error(file,
+                            fmt::format("has a value that is no number at pixel {}, {}",
+                                        part.x + (bad - from) / channels, part.y + y + row),
+                            "finite values");
+            }
+            std::copy_n(from, partValues, image.values.begin() + static_cast<std::ptrdiff_t>((y + row) * partValues));
+        }
+    }
+    return image;
+}
+
+} // namespace
+
+MergedPhotograph loadMerged(const Photograph& photograph, const Capture& capture, const FileWindow& part)
 {
     std::vector<Image> pictures;
     std::vector<ExposureScale> scales;
+    ImageHeader first;
+    FileWindow box;
     for (const Exposure& exposure : photograph.exposures) {
-        pictures.push_back(loadPhotograph(exposure.file, capture.curve));
-        scales.push_back(exposureScaleOf(readImageHeader(exposure.file).pixelType, exposure.seconds));
-        scales.back().offset = capture.offset;
-        const Image& first = pictures.front();
-        const Image& last = pictures.back();
-        if (last.width != first.width || last.height != first.height) {
-            throw Error(exposure.file, fmt::format("is {} x {}", last.width, last.height),
+        ImageRows rows(exposure.file, capture.curve);
+        const ImageHeader& header = rows.header();
+        if (pictures.empty()) {
+            first = header;
+            box = clippedTo(header, part, exposure.file);
+        } else if (header.width != first.width || header.height != first.height) {
+            throw Error(exposure.file, fmt::format("is {} x {}", header.width, header.height),
                         fmt::format("{} x {} as the bracket's first exposure", first.width, first.height));
         }
+        pictures.push_back(readPart(rows, box, exposure.file));
+        scales.push_back(exposureScaleOf(header.pixelType, exposure.seconds));
+        scales.back().offset = capture.offset;
     }
-    const int width = pictures.front().width;
-    const int height = pictures.front().height;
-    MergedPhotograph merged{Image(width, height, 3), std::vector<uint8_t>(pictures.front().pixelCount(), 0)};
+    MergedPhotograph merged{box.x, box.y, Image(box.width, box.height, 3),
+                            std::vector<uint8_t>(pictures.front().pixelCount(), 0)};
     std::vector<glm::vec3> values(pictures.size());
-    for (int y = 0; y < height; ++y) {
-        for (int x = 0; x < width; ++x) {
+    for (int y = 0; y < box.height; ++y) {
+        for (int x = 0; x < box.width; ++x) {
             for (size_t e = 0; e < pictures.size(); ++e) {
                 values[e] = pictures[e].rgb(x, y);
             }
             const MergedPixel pixel = mergeExposures(values, scales);
             merged.radiance.setRgb(x, y, pixel.radiance);
-            merged.saturated[static_cast<size_t>(y) * width + x] = pixel.saturated ? 1 : 0;
+            merged.saturated[static_cast<size_t>(y) * box.width + x] = pixel.saturated ? 1 : 0;
         }
     }
     return merged;

@@ -34,13 +34,16 @@ struct MergedPixel {
 // exposure is clipped, the shortest one's value stands. A single exposure is taken as it is.
 MergedPixel mergeExposures(std::span<const glm::vec3> values, std::span<const ExposureScale> scales);
 
-// A photograph as a whole, its exposures merged (exposure_merge.h): for spheres, which have pictures of their own.
+// Part of a photograph, its exposures merged: for spheres, which have pictures of their own.
 struct MergedPhotograph {
+    int x = 0; // of its top left pixel in the file
+    int y = 0;
     Image radiance;                 // 3 channels
     std::vector<uint8_t> saturated; // per pixel: 1 where a channel was clipped in every exposure
 };
 
-// Throws Error where a file cannot be read or the exposures differ in size.
-MergedPhotograph loadMerged(const Photograph& photograph, const Capture& capture);
+// What the files have of the part. Throws Error where a file cannot be read, the exposures differ in size or the part
+// lies outside.
+MergedPhotograph loadMerged(const Photograph& photograph, const Capture& capture, const FileWindow& part);
 
 } // namespace nacre

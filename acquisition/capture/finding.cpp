@@ -8,7 +8,7 @@ namespace nacre {
 namespace {
 
 // In the order of FindingCode.
-constexpr std::array<std::string_view, 28> kNames = {"transfer-curve-left",
+constexpr std::array<std::string_view, 29> kNames = {"transfer-curve-left",
                                                      "transfer-curve-taken",
                                                      "lights-near",
                                                      "lights-ill-placed",
@@ -19,6 +19,7 @@ constexpr std::array<std::string_view, 28> kNames = {"transfer-curve-left",
                                                      "lights-turned",
                                                      "axes-mixed",
                                                      "mask-dark",
+                                                     "mask-inverted",
                                                      "photographs-alike",
                                                      "normals-unstable",
                                                      "clipped",
@@ -53,6 +54,20 @@ bool isWarning(FindingCode code)
 std::string lineOf(const Finding& finding)
 {
     return (isWarning(finding.code) ? "warning: " : "") + finding.text;
+}
+
+void SelfChecks::judge(FindingCode code, double value, double limit, const std::string& text)
+{
+    figures.push_back({code, value, limit});
+    if (value > limit) {
+        findings.push_back({code, text});
+    }
+}
+
+void SelfChecks::add(const SelfChecks& more)
+{
+    append(findings, more.findings);
+    figures.insert(figures.end(), more.figures.begin(), more.figures.end());
 }
 
 bool contains(const std::vector<Finding>& findings, FindingCode code)

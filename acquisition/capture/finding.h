@@ -19,6 +19,7 @@ enum class FindingCode {
     lightsTurned,
     axesMixed,
     maskDark,
+    maskInverted,
     photographsAlike,
     normalsUnstable,
     clipped,
@@ -51,6 +52,21 @@ bool isWarning(FindingCode code);
 
 // The text; of a warning with "warning: " before it.
 std::string lineOf(const Finding& finding);
+
+// What a self-check measured; above its limit it is a finding.
+struct CheckFigure {
+    FindingCode code;
+    double value = 0;
+    double limit = 0;
+};
+
+struct SelfChecks {
+    std::vector<Finding> findings;
+    std::vector<CheckFigure> figures;
+
+    void judge(FindingCode code, double value, double limit, const std::string& text);
+    void add(const SelfChecks& more);
+};
 
 bool contains(const std::vector<Finding>& findings, FindingCode code);
 void append(std::vector<Finding>& to, const std::vector<Finding>& more);

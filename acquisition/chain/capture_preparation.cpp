@@ -101,14 +101,17 @@ std::pair<PreparedCapture, Observations> reconcileCapture(const Capture& capture
     progress("choosing", 0);
     clock.enter("choosing");
     std::vector<Finding> findings = clipAtEnd(prepared.blocks, sample.seen);
-    append(findings, alikeWarnings(sample.seen, prepared.rig.lights));
-    append(findings, maskWarnings(sample.seen, !capture.maskSource.empty()));
+    SelfChecks values = checkDifferences(sample.seen, prepared.rig.lights);
+    values.add(checkMask(sample.seen, !capture.maskSource.empty()));
+    values.add(checkMaskBorder(capture.mask, capture.width, capture.height));
+    append(findings, values.findings);
     prepared.nearField = nearFieldOf(capture, given, prepared.rig.lights);
     Observations seen = sample.seen;
     sample.seen = asIfDistant(std::move(sample.seen), prepared.localLights(), {}, options.normals.threads);
     prepared.reconciled = reconcilePhotographs(std::move(sample), options);
     append(findings, prepared.reconciled.findings);
     prepared.reconciled.findings = std::move(findings);
+    prepared.reconciled.figures = std::move(values.figures);
     keepReconciled(prepared);
     if (prepared.rig.lights.size() != seen.lightCount) {
         seen = selectLights(seen, prepared.reconciled.agreeing);

@@ -35,7 +35,9 @@ ChosenMethod chooseMethod(const CaptureSample& sample, const CheckedSample& chec
     chosen.methods = {report.method};
     chosen.heldOutError = report.heldOutError;
     chosen.findings = std::move(report.findings);
-    append(chosen.findings, methodWarnings(checked, chosen.method, chosen.estimators.front()));
+    const SelfChecks own = checkMethod(checked, chosen.method, chosen.estimators.front());
+    append(chosen.findings, own.findings);
+    chosen.figures = own.figures;
     return chosen;
 }
 

@@ -15,8 +15,9 @@ struct ChosenMethod {
     std::vector<NormalEstimator> estimators;       // one a material, or one for all
     std::vector<NormalMethod> methods;             // of each
     std::vector<Finding> findings;
-    double heldOutError = 0;       // NormalReport's, of an object of one material
-    std::optional<SelfLight> self; // what the object throws on itself; to be taken out of every block first
+    std::vector<CheckFigure> figures; // of the self-checks of an object of one material
+    double heldOutError = 0;          // NormalReport's, of an object of one material
+    std::optional<SelfLight> self;    // what the object throws on itself; to be taken out of every block first
 };
 
 // For an object of one material. Methods that look at the whole object (auto, exemplar) do so on the sample.

@@ -24,6 +24,17 @@ void dropMarked(const Capture& capture, const Observations& block, NormalBlock& 
     }
 }
 
+// A curve that was taken from linear files is told by photographs that nacre itself decoded, or that are far from
+// Lambert's law: matter whose shading falls faster than the cosine looks the same.
+std::vector<Finding> believable(const CheckedSample& checked, const Capture& capture)
+{
+    std::vector<Finding> findings = checked.checks.findings;
+    if (capture.curve == TransferCurve::linear && isLambertian(checked.scatter)) {
+        std::erase_if(findings, [](const Finding& f) { return f.code == FindingCode::transferCurveTaken; });
+    }
+    return findings;
+}
+
 } // namespace
 
 LocalLights PreparedCapture::localLights() const
@@ -38,11 +49,15 @@ NormalEstimate startEstimate(const PreparedCapture& prepared, const ChosenMethod
     estimate.rig = prepared.rig;
     estimate.nearField = prepared.nearField;
     estimate.leftOut = prepared.reconciled.leftOut;
-    estimate.report = {chosen.method, prepared.reconciled.findings, chosen.heldOutError, prepared.lambertianMisfit};
+    estimate.report = {chosen.method, prepared.reconciled.findings, prepared.reconciled.figures, chosen.heldOutError,
+                       prepared.lambertianMisfit};
     append(estimate.report.findings, warningsOf(prepared.rig.lights));
     append(estimate.report.findings, prepared.placed);
-    append(estimate.report.findings, prepared.checked.findings);
+    append(estimate.report.findings, believable(prepared.checked, prepared.blocks.capture()));
     append(estimate.report.findings, chosen.findings);
+    for (const auto* figures : {&prepared.checked.checks.figures, &chosen.figures}) {
+        estimate.report.figures.insert(estimate.report.figures.end(), figures->begin(), figures->end());
+    }
     nameAssumedCurve(prepared.blocks.capture(), estimate.report.findings);
     estimate.normals = NormalMap(prepared.blocks.capture().width, prepared.blocks.capture().height);
     estimate.verdicts.resize(prepared.rig.lights.size());
@@ -104,7 +119,9 @@ void storeNormals(const Observations& block, const NormalBlock& normals, bool ke
 
 void finishEstimate(const Capture& capture, NormalEstimate& estimate)
 {
-    append(estimate.report.findings, heightWarnings(estimate.normals));
+    const SelfChecks height = checkHeight(estimate.normals);
+    append(estimate.report.findings, height.findings);
+    estimate.report.figures.insert(estimate.report.figures.end(), height.figures.begin(), height.figures.end());
     if (!capture.smooth.empty()) {
         estimate.pixelsSmoothed = fillSmoothly(estimate.normals, capture.smooth, capture.mask);
         estimate.pixelsWithoutNormal -= estimate.pixelsSmoothed;

@@ -33,7 +33,7 @@ void leaveOut(const std::vector<DiscordantPhotograph>& discordant, ReconciledPho
 
 ReconciledPhotographs reconcilePhotographs(CaptureSample given, const AcquireOptions& options)
 {
-    ReconciledPhotographs result{std::move(given), {}, {}, {}};
+    ReconciledPhotographs result{std::move(given), {}, {}, {}, {}};
     CaptureSample& sample = result.sample;
     result.agreeing.resize(sample.lights.size());
     std::iota(result.agreeing.begin(), result.agreeing.end(), size_t{0});

@@ -20,6 +20,7 @@ struct ReconciledPhotographs {
     std::vector<size_t> agreeing;     // these photographs, as indices into those that were given
     std::vector<std::string> leftOut; // names of the others
     std::vector<Finding> findings;
+    std::vector<CheckFigure> figures; // of the self-checks of values
 };
 
 // Leaves out photographs that no intensity reconciles with the others, and corrects irradiances. Where

@@ -175,32 +175,32 @@ double bulge(const NormalMap& map, const glm::dmat2& axes)
 
 } // namespace
 
-std::vector<Finding> heightWarnings(const NormalMap& map)
+SelfChecks checkHeight(const NormalMap& map)
 {
     const HeightConsistency found = heightConsistencyOf(map);
+    SelfChecks checks;
     if (found.places < kFewestPlaces) {
-        return {};
+        return checks;
     }
     const auto best = std::max_element(found.axesRatios.begin(), found.axesRatios.end());
-    if (*best > kMixedAxes) {
-        const Axes& axes = kAxes[best - found.axesRatios.begin()];
-        return {{FindingCode::axesMixed,
+    const Axes& axes = kAxes[best - found.axesRatios.begin()];
+    checks.judge(FindingCode::axesMixed, *best, kMixedAxes,
                  fmt::format("all lights probably {}; put right, normals fit a surface {:.1f} times better",
-                             bulge(map, axes.change) >= 0 ? axes.text : axes.reversed, *best)}};
-    }
+                             bulge(map, axes.change) >= 0 ? axes.text : axes.reversed, *best));
     const double turn = glm::length(found.turnDegrees);
-    if (turn > kLargestTurn && found.turnedRatio < kTellingTurn) {
-        return {
-            {FindingCode::lightsTurned,
-             fmt::format("all normals, and so all lights, seem turned by {:.0f} degrees: turned back, slopes disagree "
-                         "by {:.0f} % less; check the mirror sphere's outline, or the frame of the lights",
-                         turn, 100 * (1 - found.turnedRatio))}};
+    if (checks.findings.empty()) {
+        checks.judge(FindingCode::lightsTurned, found.turnedRatio < kTellingTurn ? turn : 0, kLargestTurn,
+                     fmt::format("all normals, and so all lights, seem turned by {:.0f} degrees: turned back, slopes "
+                                 "disagree by {:.0f} % less; check the mirror sphere's outline, or the frame of the "
+                                 "lights",
+                                 turn, 100 * (1 - found.turnedRatio)));
     }
-    if (bulge(map, glm::dmat2(1)) < -kHollow) {
-        return {{FindingCode::hollow, "by its outline the object is hollow; if it bulges, x and y of all lights are "
-                                      "reversed"}};
+    if (checks.findings.empty() && bulge(map, glm::dmat2(1)) < -kHollow) {
+        checks.findings.push_back({FindingCode::hollow,
+                                   "by its outline the object is hollow; if it bulges, x and y of all lights are "
+                                   "reversed"});
     }
-    return {};
+    return checks;
 }
 
 } // namespace nacre

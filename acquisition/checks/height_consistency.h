@@ -27,6 +27,6 @@ HeightConsistency heightConsistencyOf(const NormalMap& map);
 inline constexpr double kMixedAxes = 1.33;
 
 // A warning where the lights' axes must be mixed up, or all lights turned; a remark where they may be reversed.
-std::vector<Finding> heightWarnings(const NormalMap& map);
+SelfChecks checkHeight(const NormalMap& map);
 
 } // namespace nacre

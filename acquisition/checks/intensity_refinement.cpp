@@ -208,10 +208,13 @@ std::vector<Finding> correctIntensities(const PhotographRatios& found, const std
     std::vector<Finding> remarks;
     const double condition = conditionOf(lights);
     const bool illPlaced = condition > kWorstTellingCondition;
+    if (!found.settled && known) {
+        return {}; // they stay as given
+    }
     if (!found.settled) {
         return {{FindingCode::intensitiesUncertain,
-                 fmt::format("the intensities do not settle in {} steps: {}", found.iterations,
-                             known ? "they stay as given" : "the lights are taken to be equally strong")}};
+                 fmt::format("the intensities do not settle in {} steps: the lights are taken to be equally strong",
+                             found.iterations)}};
     }
     if (!known) {
         remarks.push_back(

@@ -23,6 +23,8 @@ constexpr float kDark = 1.0f / 512; // of it: 8 bits do not show it beside it
 // Where no mask was drawn: a background may have noise and stray light.
 constexpr float kDarkUnmasked = 1.0f / 64;
 constexpr double kLargestDark = 0.1; // of the mask
+// An object that fills the picture has more of it than a hole.
+constexpr double kLargestBorder = 0.95, kLeastLeftOut = 0.1;
 
 // Of one channel: infinite where it only has a largest value.
 float endOfChannel(const Observations& sample, int c)
@@ -88,7 +90,7 @@ std::optional<glm::vec3> endOfValues(const Observations& sample)
     return std::isfinite(std::min({end.x, end.y, end.z})) ? std::optional(end) : std::nullopt;
 }
 
-std::vector<Finding> maskWarnings(const Observations& sample, bool isMasked)
+SelfChecks checkMask(const Observations& sample, bool isMasked)
 {
     std::vector<float> brightest;
     for (size_t p = 0; p < sample.pixels.size(); ++p) {
@@ -103,21 +105,42 @@ std::vector<Finding> maskWarnings(const Observations& sample, bool isMasked)
     const float level = (isMasked ? kDark : kDarkUnmasked) * quantile(brightest, kBright);
     const auto dark = std::count_if(brightest.begin(), brightest.end(), [&](float v) { return v < level; });
     const double share = static_cast<double>(dark) / static_cast<double>(brightest.size());
-    if (share <= kLargestDark) {
-        return {};
-    }
     const double percent = 100 * share;
-    return {{FindingCode::maskDark,
-             isMasked
-                 ? fmt::format("{:.0f} % of the mask is dark under every light: the mask of something else, one "
+    SelfChecks checks;
+    checks.judge(
+        FindingCode::maskDark, share, kLargestDark,
+        isMasked ? fmt::format("{:.0f} % of the mask is dark under every light: the mask of something else, one "
                                "that is turned, or black and white exchanged",
                                percent)
                  : fmt::format("there is no mask, and {:.0f} % of the picture, all of which is taken for the object, "
                                "is dark under every light: draw one, white on the object, and name it by --mask",
-                               percent)}};
+                               percent));
+    return checks;
 }
 
-std::vector<Finding> alikeWarnings(const Observations& sample, const std::vector<Light>& lights)
+SelfChecks checkMaskBorder(const std::vector<uint8_t>& mask, int width, int height)
+{
+    size_t border = 0, onBorder = 0, outside = 0;
+    for (int y = 0; y < height; ++y) {
+        for (int x = 0; x < width; ++x) {
+            const bool inside = mask[static_cast<size_t>(y) * width + x] != 0;
+            const bool isBorder = x == 0 || y == 0 || x + 1 == width || y + 1 == height;
+            border += isBorder;
+            onBorder += isBorder && inside;
+            outside += !inside;
+        }
+    }
+    const double left = static_cast<double>(outside) / static_cast<double>(mask.size());
+    const double share = left > kLeastLeftOut ? static_cast<double>(onBorder) / static_cast<double>(border) : 0;
+    SelfChecks checks;
+    checks.judge(FindingCode::maskInverted, share, kLargestBorder,
+                 fmt::format("the mask has {:.0f} % of the picture's border and leaves out {:.0f} % in the middle: are "
+                             "black and white exchanged? White is the object",
+                             100 * share, 100 * left));
+    return checks;
+}
+
+SelfChecks checkDifferences(const Observations& sample, const std::vector<Light>& lights)
 {
     std::vector<float> spreads;
     for (size_t p = 0; p < sample.pixels.size(); ++p) {
@@ -128,13 +151,13 @@ std::vector<Finding> alikeWarnings(const Observations& sample, const std::vector
         spreads.push_back(static_cast<float>(spread.relative()));
     }
     const double expected = spreadOfCosines(lights), seen = spreads.empty() ? expected : quantile(spreads, 0.5);
-    if (seen >= kLeastDifference * expected) {
-        return {};
-    }
-    return {{FindingCode::photographsAlike,
-             fmt::format("the photographs hardly differ: pixels by {:.1f} %, where their lights make a surface that "
-                         "faces them differ by {:.0f} %; darken the room, or check the files",
-                         100 * seen, 100 * expected)}};
+    SelfChecks checks;
+    checks.judge(
+        FindingCode::photographsAlike, std::max(0.0, 1 - seen / expected), 1 - kLeastDifference,
+        fmt::format("the photographs hardly differ: pixels by {:.1f} %, where their lights make a surface that "
+                    "faces them differ by {:.0f} %; darken the room, or check the files",
+                    100 * seen, 100 * expected));
+    return checks;
 }
 
 } // namespace nacre

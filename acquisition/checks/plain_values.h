@@ -16,10 +16,13 @@ namespace nacre {
 std::optional<glm::vec3> endOfValues(const Observations& sample);
 
 // A warning where much of a mask is dark under every light, which the object is not; or much of a picture without one.
-std::vector<Finding> maskWarnings(const Observations& sample, bool isMasked);
+SelfChecks checkMask(const Observations& sample, bool isMasked);
+
+// A warning where a mask of the capture has all of the picture's border and leaves out much in its middle.
+SelfChecks checkMaskBorder(const std::vector<uint8_t>& mask, int width, int height);
 
 // A warning where pixels differ between photographs by far less than the directions of the lights make a surface do
 // that faces their middle, and which differs less than most.
-std::vector<Finding> alikeWarnings(const Observations& sample, const std::vector<Light>& lights);
+SelfChecks checkDifferences(const Observations& sample, const std::vector<Light>& lights);
 
 } // namespace nacre

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <Eigen/Dense>
 #include <fmt/format.h>
@@ -96,20 +97,15 @@ Shares sharesOf(const CheckedSample& sample)
     return {static_cast<double>(clipped) / all, static_cast<double>(shadowed) / all};
 }
 
-void warnOfShares(const Shares& shares, std::vector<Finding>& warnings)
+void judgeShares(const Shares& shares, SelfChecks& checks)
 {
-    if (shares.clipped > kLargestClipped) {
-        warnings.push_back(
-            {FindingCode::clipped, fmt::format("{:.0f} % of what the lights reach is clipped; expose shorter, or take "
-                                               "brackets",
-                                               100 * shares.clipped)});
-    }
-    if (shares.shadowed > kLargestShadowed) {
-        warnings.push_back({FindingCode::shadowed,
-                            fmt::format("{:.0f} % of what faces a light is dark: cast shadows, or wrong lights; "
-                                        "normals lean away from what is in the way",
-                                        100 * shares.shadowed)});
-    }
+    checks.judge(FindingCode::clipped, shares.clipped, kLargestClipped,
+                 fmt::format("{:.0f} % of what the lights reach is clipped; expose shorter, or take brackets",
+                             100 * shares.clipped));
+    checks.judge(FindingCode::shadowed, shares.shadowed, kLargestShadowed,
+                 fmt::format("{:.0f} % of what faces a light is dark: cast shadows, or wrong lights; normals lean away "
+                             "from what is in the way",
+                             100 * shares.shadowed));
 }
 
 double meanDifference(const NormalBlock& a, const NormalBlock& b)
@@ -166,7 +162,7 @@ double lambertScatter(const Observations& sample, const std::vector<Light>& ligh
 CheckedSample checkCapture(const Observations& sample, const std::vector<Light>& lights, const NormalOptions& options)
 {
     CheckedSample checked;
-    std::vector<Finding>& warnings = checked.findings;
+    SelfChecks& checks = checked.checks;
     checked.seen = thinned(sample);
     checked.lights = lights;
     if (checked.seen.pixels.size() < kFewestCheckedPixels || lights.size() < kFewestCheckedLights) {
@@ -178,58 +174,53 @@ CheckedSample checkCapture(const Observations& sample, const std::vector<Light>&
     checked.consensus = makeConsensusEstimator(lights, quick)(checked.intensities);
     checked.scatter = matteScatter(checked.intensities, checked.consensus, lights,
                                    matteObservations(checked.intensities, checked.consensus, lights));
-    checked.defect = findDefect(checked.seen, lights, quick, checked.scatter);
+    const DefectSearch search = findDefect(checked.seen, lights, quick, checked.scatter);
+    checks.figures = search.figures;
+    checked.defect = search.defect;
     if (checked.defect) {
-        warnings.push_back(findingOf(*checked.defect, checked.scatter));
+        checks.findings.push_back(findingOf(*checked.defect, checked.scatter));
     }
     const double misfit = lightMisfitDegrees(checked.intensities, checked.consensus, lights);
-    if (misfit > kLargestMisfit) {
-        warnings.push_back({FindingCode::directionsContradicted,
-                            fmt::format("the photographs contradict the directions of their lights by {:.1f} "
-                                        "degrees in the median; check their order, or calibrate them anew",
-                                        misfit)});
-    }
+    checks.judge(FindingCode::directionsContradicted, misfit, kLargestMisfit,
+                 fmt::format("the photographs contradict the directions of their lights by {:.1f} degrees in the "
+                             "median; check their order, or calibrate them anew",
+                             misfit));
     checked.instability = instabilityDegrees(checked.intensities, lights, quick);
-    if (checked.instability > kLargestInstability) {
-        warnings.push_back({FindingCode::normalsUnstable,
-                            fmt::format("normals move by {:.1f} degrees with the choice of photographs: noise, "
-                                        "wrong irradiances, shadows, or too few lights; take more, or better exposed "
-                                        "ones",
-                                        checked.instability)});
-    }
-    warnOfShares(sharesOf(checked), warnings);
+    checks.judge(FindingCode::normalsUnstable, checked.instability, kLargestInstability,
+                 fmt::format("normals move by {:.1f} degrees with the choice of photographs: noise, wrong irradiances, "
+                             "shadows, or too few lights; take more, or better exposed ones",
+                             checked.instability));
+    judgeShares(sharesOf(checked), checks);
     return checked;
 }
 
-std::vector<Finding> methodWarnings(const CheckedSample& sample, NormalMethod method, const NormalEstimator& estimator)
+SelfChecks checkMethod(const CheckedSample& sample, NormalMethod method, const NormalEstimator& estimator)
 {
-    std::vector<Finding> warnings;
+    SelfChecks checks;
     if (sample.consensus.pixels.empty()) {
-        return warnings;
+        return checks;
     }
-    const bool knowsGloss = method == NormalMethod::exemplar;
     const NormalBlock own = estimator(sample.intensities);
     const double difference = meanDifference(own, sample.consensus), unexplained = unexplainedShare(own, sample.lights);
-    if (!knowsGloss && sample.scatter > kLargestScatter) {
-        warnings.push_back({FindingCode::notLambertian,
-                            fmt::format("even matte parts miss Lambert's law by {:.1f} %, on which {} rests: "
-                                        "gloss, noise or wrong lights; exemplar knows gloss",
-                                        100 * sample.scatter, nameOf(method))});
+    const bool knowsGloss = method == NormalMethod::exemplar;
+    if (!knowsGloss) {
+        checks.judge(FindingCode::notLambertian, sample.scatter, kLargestScatter,
+                     fmt::format("even matte parts miss Lambert's law by {:.1f} %, on which {} rests: gloss, noise or "
+                                 "wrong lights; exemplar knows gloss",
+                                 100 * sample.scatter, nameOf(method)));
+        // What consensus itself is unsure of says nothing against another method.
+        checks.judge(
+            FindingCode::methodsDisagree, difference, kLargestDifference + sample.instability,
+            fmt::format("normals by {} and by consensus are {:.1f} degrees apart in the mean: gloss or shadows "
+                        "are taken for shading; consensus or exemplar are safer",
+                        nameOf(method), difference));
     }
-    // What consensus itself is unsure of says nothing against another method.
-    if (!knowsGloss && difference > kLargestDifference + sample.instability) {
-        warnings.push_back({FindingCode::methodsDisagree,
-                            fmt::format("normals by {} and by consensus are {:.1f} degrees apart in the mean: "
-                                        "gloss or shadows are taken for shading; consensus or exemplar are safer",
-                                        nameOf(method), difference)});
-    }
-    if (knowsGloss && unexplained > kLargestUnexplained) {
-        warnings.push_back(
-            {FindingCode::unexplained, fmt::format("no reflectance explains the photographs to better than {:.0f} % of "
-                                                   "their brightness: noise, wrong lights, or no one material",
-                                                   100 * unexplained)});
-    }
-    return warnings;
+    checks.judge(FindingCode::unexplained, unexplained,
+                 knowsGloss ? kLargestUnexplained : std::numeric_limits<double>::infinity(),
+                 fmt::format("no reflectance explains the photographs to better than {:.0f} % of their brightness: "
+                             "noise, wrong lights, or several materials (--segment auto)",
+                             100 * unexplained));
+    return checks;
 }
 
 } // namespace nacre

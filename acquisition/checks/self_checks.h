@@ -19,7 +19,7 @@ struct CheckedSample {
     double scatter = 0; // from Lambert's law, see matte_scatter.h
     double instability = 0;
     std::optional<CaptureDefect> defect;
-    std::vector<Finding> findings;
+    SelfChecks checks;
 };
 
 // How far a few hundred pixels of an object are from Lambert's law by consensus, see matte_scatter.h; 0 where there are
@@ -31,6 +31,6 @@ double lambertScatter(const Observations& sample, const std::vector<Light>& ligh
 CheckedSample checkCapture(const Observations& sample, const std::vector<Light>& lights, const NormalOptions& options);
 
 // What is to be said of a method's normals, once it is known which method was taken.
-std::vector<Finding> methodWarnings(const CheckedSample& sample, NormalMethod method, const NormalEstimator& estimator);
+SelfChecks checkMethod(const CheckedSample& sample, NormalMethod method, const NormalEstimator& estimator);
 
 } // namespace nacre

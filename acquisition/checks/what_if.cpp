@@ -45,9 +45,14 @@ double scatterOfPower(const Observations& seen, const std::vector<Light>& lights
 
 } // namespace
 
+bool isLambertian(double scatter)
+{
+    return scatter < kLambertian;
+}
+
 bool tellsCurve(double scatter, double scatterAsTaken)
 {
-    return scatterAsTaken > kLeastScatter && scatter < kTellingCurve * scatterAsTaken && scatter < kLambertian;
+    return scatterAsTaken > kLeastScatter && scatter < kTellingCurve * scatterAsTaken && isLambertian(scatter);
 }
 
 double scatterAtDistance(const Observations& seen, const std::vector<Light>& lights, const NearField& near,
@@ -68,8 +73,8 @@ double scatterAtDistance(const Observations& seen, const std::vector<Light>& lig
     return scatter;
 }
 
-std::optional<CaptureDefect> findDefect(const Observations& seen, const std::vector<Light>& lights,
-                                        const NormalOptions& options, double scatter)
+DefectSearch findDefect(const Observations& seen, const std::vector<Light>& lights, const NormalOptions& options,
+                        double scatter)
 {
     if (scatter < kLeastScatter) {
         return {};
@@ -102,14 +107,18 @@ std::optional<CaptureDefect> findDefect(const Observations& seen, const std::vec
                     : scatterOfPower(seen, lights, consensus, matte, trial.size);
         }
     });
-    std::optional<CaptureDefect> best;
+    DefectSearch found{{},
+                       {{FindingCode::transferCurveLeft, 0, 1 - kTellingCurve},
+                        {FindingCode::transferCurveTaken, 0, 1 - kTellingCurve},
+                        {FindingCode::lightsNear, 0, 1 - kTellingDistance}}};
     for (const CaptureDefect& trial : trials) {
-        const double telling = trial.kind == CaptureDefect::Kind::nearLights ? kTellingDistance : kTellingCurve;
-        if (trial.scatter < telling * scatter && (!best || trial.scatter < best->scatter)) {
-            best = trial;
+        CheckFigure& figure = found.figures[static_cast<size_t>(trial.kind)];
+        figure.value = std::max(figure.value, 1 - trial.scatter / scatter);
+        if (1 - trial.scatter / scatter > figure.limit && (!found.defect || trial.scatter < found.defect->scatter)) {
+            found.defect = trial;
         }
     }
-    return best;
+    return found;
 }
 
 } // namespace nacre

@@ -101,6 +101,33 @@ std::vector<Circle> outlinesOf(const SpherePhotographs& sphere, const Capture& c
     return outlines;
 }
 
+// What is to be read around the spheres: their outlines, and a little for what grows out of them.
+FileWindow boxAround(const std::vector<Circle>& outlines)
+{
+    constexpr double kMargin = 2; // pixels
+    double x0 = outlines[0].x, y0 = outlines[0].y, x1 = x0, y1 = y0;
+    for (const Circle& c : outlines) {
+        const double reach = c.radius + kMargin;
+        x0 = std::min(x0, c.x - reach), x1 = std::max(x1, c.x + reach);
+        y0 = std::min(y0, c.y - reach), y1 = std::max(y1, c.y + reach);
+    }
+    const int x = static_cast<int>(std::floor(x0)), y = static_cast<int>(std::floor(y0));
+    return {x, y, static_cast<int>(std::ceil(x1)) - x, static_cast<int>(std::ceil(y1)) - y};
+}
+
+Circle within(const MergedPhotograph& part, const Circle& outline)
+{
+    return {outline.x - part.x, outline.y - part.y, outline.radius};
+}
+
+Highlight highlightOn(const MergedPhotograph& part, const Circle& outline, const std::filesystem::path& file)
+{
+    Highlight highlight = findHighlight(part.radiance, within(part, outline), file);
+    highlight.x += part.x;
+    highlight.y += part.y;
+    return highlight;
+}
+
 // From where the highlight lies on a sphere that stands beside the object, in the middle of which all else is.
 MirrorRay rayOf(const Highlight& highlight, const Circle& outline, const SpherePhotographs& sphere,
                 const Capture& capture, const ObjectExtent& extent)
@@ -120,14 +147,14 @@ MirrorLights lightsFromMirror(const Capture& capture, int threads)
 {
     const SpherePhotographs& sphere = *capture.mirrorSphere;
     const std::vector<Circle> outlines = outlinesOf(sphere, capture);
+    const FileWindow box = boxAround(outlines);
     const ObjectExtent extent = extentOf(capture);
     std::vector<std::vector<MirrorRay>> rays(sphere.photographs.size());
     parallelFor(rays.size(), 1, threads, [&](size_t first, size_t) {
         const std::filesystem::path& file = sphere.photographs[first].exposures.front().file;
-        const MergedPhotograph merged = loadMerged(sphere.photographs[first], capture);
+        const MergedPhotograph merged = loadMerged(sphere.photographs[first], capture, box);
         for (const Circle& outline : outlines) {
-            rays[first].push_back(
-                rayOf(findHighlight(merged.radiance, outline, file), outline, sphere, capture, extent));
+            rays[first].push_back(rayOf(highlightOn(merged, outline, file), outline, sphere, capture, extent));
         }
     });
     return lightsOfRays(rays, sphere.inPicture ? capture.lightDistance : std::numeric_limits<double>::infinity());
@@ -163,12 +190,13 @@ void addIrradiances(const Capture& capture, const CalibrationOptions& options, R
 {
     const SpherePhotographs& sphere = *capture.diffuseSphere;
     const Circle outline = outlineOf(sphere, capture);
+    const FileWindow box = boxAround({outline});
     std::vector<DiffuseSphereReading> readings(rig.lights.size());
     parallelFor(rig.lights.size(), 1, options.threads, [&](size_t i, size_t) {
         const std::filesystem::path& file = sphere.photographs[i].exposures.front().file;
-        const MergedPhotograph merged = loadMerged(sphere.photographs[i], capture);
-        readings[i] =
-            readDiffuseSphere(merged.radiance, outline, rig.lights[i].direction, file, options.rules, merged.saturated);
+        const MergedPhotograph merged = loadMerged(sphere.photographs[i], capture, box);
+        readings[i] = readDiffuseSphere(merged.radiance, within(merged, outline), rig.lights[i].direction, file,
+                                        options.rules, merged.saturated);
     });
     shareOffset(readings);
     rig.shadingOffset = readings.front().offset;

@@ -83,6 +83,7 @@ NormalEstimator makeConsensusEstimator(const std::vector<Light>& lights, const N
 struct NormalReport {
     NormalMethod method = NormalMethod::automatic; // the one that was taken
     std::vector<Finding> findings;
+    std::vector<CheckFigure> figures;                               // of the self-checks
     double heldOutError = std::numeric_limits<double>::quiet_NaN(); // that the choice rests on; NaN where it was none
     // Share of the mean, see lambertian_misfit.h; NaN where nothing is lit.
     double lambertianMisfit = std::numeric_limits<double>::quiet_NaN();

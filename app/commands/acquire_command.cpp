@@ -10,6 +10,7 @@
 #include "app/report/acquire_report.h"
 #include "app/report/acquisition_summary.h"
 #include "app/report/debug_pictures.h"
+#include "app/report/plain_verdict.h"
 #include "app/report/progress_line.h"
 #include "engine/files/error.h"
 #include "engine/files/stopwatch.h"
@@ -92,18 +93,16 @@ void runAcquire(AcquireArguments& arguments)
     const AcquireOptions options = optionsOf(arguments);
     checkOutputs(arguments);
     const Capture capture = arguments.common.load();
-    if (!common.quiet) {
-        fmt::print("{}", describe(capture));
-    }
     const Progress progress = progressLine(common.quiet);
     const Acquisition result = acquire(capture, options, progress);
     endProgressLine(common.quiet);
     saveSurface(arguments.output, result.surface, common.force);
     const Capture given = selectPhotographs(capture, result.estimate.given);
     if (!common.quiet) {
-        fmt::print("{}{}{}{}{}wrote        {}\n", describeGiven(capture, result.estimate),
-                   describe(given, result.estimate.rig), describeNormals(given, result.estimate), describeBrdf(result),
-                   describe(result.estimate.times), arguments.output.string());
+        fmt::print("{}\n\n{}{}{}{}{}{}wrote        {}\n", plainVerdict(result.estimate), describe(capture),
+                   describeGiven(capture, result.estimate), describe(given, result.estimate.rig),
+                   describeNormals(given, result.estimate), describeBrdf(result), describe(result.estimate.times),
+                   arguments.output.string());
     }
     if (!common.compareRig.empty() && !common.quiet) {
         fmt::print("{}", describeDisagreement(capture, result.estimate.given, result.estimate.rig, common.compareRig));

@@ -113,9 +113,9 @@ std::string describe(const HeldOutEvaluation& evaluation, const std::optional<An
                             "without a normal)\n",
                             normals->mean, normals->median, normals->percentile95, normals->pixels, normals->missing);
     }
-    return text + fmt::format("model        {} bytes\n", evaluation.modelBytes) +
-           describe(evaluation.acquisition.shadows) + describe(evaluation.acquisition.residual) +
-           describe(evaluation.acquisition.estimate.times);
+    return text + describeWarnings(evaluation.acquisition.estimate) +
+           fmt::format("model        {} bytes\n", evaluation.modelBytes) + describe(evaluation.acquisition.shadows) +
+           describe(evaluation.acquisition.residual) + describe(evaluation.acquisition.estimate.times);
 }
 
 nlohmann::ordered_json documentOf(const HeldOutEvaluation& evaluation, const std::optional<AngularError>& normals)
@@ -124,6 +124,7 @@ nlohmann::ordered_json documentOf(const HeldOutEvaluation& evaluation, const std
                                     {"photographsHeldOut", evaluation.photographs},
                                     {"worstPhotograph", evaluation.photographs[evaluation.worst]},
                                     {"modelBytes", evaluation.modelBytes},
+                                    {"findings", findingsOf(evaluation.acquisition.estimate)},
                                     {"shadows", documentOf(evaluation.acquisition.shadows)},
                                     {"residual", documentOf(evaluation.acquisition.residual)},
                                     {"acquisitionSeconds", evaluation.seconds}};

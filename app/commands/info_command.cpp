@@ -48,7 +48,7 @@ void printSurface(const std::filesystem::path& folder)
     }
     for (size_t i = 0; i < surface.parts.size(); ++i) {
         const auto pixels = std::count(surface.labels.begin(), surface.labels.end(), i);
-        fmt::print("part {:<7} {}: {} pixels\n", i, surface.parts[i], pixels);
+        fmt::print("part {:<7} {}: {} pixels\n", i + 1, surface.parts[i], pixels);
     }
     if (!surface.height.values.empty()) {
         const auto [lowest, highest] = std::minmax_element(surface.height.values.begin(), surface.height.values.end());

@@ -8,6 +8,7 @@
 #include "app/commands/commands.h"
 #include "app/report/acquisition_summary.h"
 #include "app/report/debug_pictures.h"
+#include "app/report/plain_verdict.h"
 #include "app/report/progress_line.h"
 #include "engine/files/error.h"
 #include "engine/files/text_files.h"
@@ -49,8 +50,8 @@ void runNormals(NormalsArguments& arguments)
     const Capture given = selectPhotographs(capture, result.given);
     nlohmann::json summary = summaryOf(given, result);
     if (!common.quiet) {
-        fmt::print("{}{}{}{}{}", describe(capture), describeGiven(capture, result), describe(given, result.rig),
-                   describeNormals(given, result), describe(result.times));
+        fmt::print("{}\n\n{}{}{}{}{}", plainVerdict(result), describe(capture), describeGiven(capture, result),
+                   describe(given, result.rig), describeNormals(given, result), describe(result.times));
     }
     if (!common.compareRig.empty() && !common.quiet) {
         fmt::print("{}", describeDisagreement(capture, result.given, result.rig, common.compareRig));

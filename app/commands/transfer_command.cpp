@@ -269,7 +269,7 @@ void addTransferCommand(CLI::App& app)
         ->allow_extra_args(false);
     command
         ->add_option("--labels", arguments->labels,
-                     "One more row with a material for each part, 0=A,1=B; other parts have the first")
+                     "One more row with a material for each part, 1=A,2=B; other parts have the first")
         ->allow_extra_args(false);
     command->add_option("--fits", arguments->fits,
                         "Folder of merl_abc_params.csv and merl_sgd_params.csv (default: $NACRE_FITS_DIR)");
@@ -294,7 +294,7 @@ void addTransferCommand(CLI::App& app)
     command->footer(
         "Example:\n  nacre transfer --materials horse.nacre,merl-abc:brass --onto make:cloth,statue.obj "
         "--rig key,raking -o out\n"
-        "  nacre transfer --labels 0=horse.nacre,1=lambert:0.8 --onto make:letters --rig lights.json#5 -o out");
+        "  nacre transfer --labels 1=horse.nacre,2=lambert:0.8 --onto make:letters --rig lights.json#5 -o out");
     command->callback([arguments] { runTransfer(*arguments); });
 }
 

@@ -136,7 +136,7 @@ std::vector<std::string> listFromArguments(const std::vector<std::string>& texts
     return split(texts, goesOn);
 }
 
-// Throws Error (usage) that names the option.
+// Numbers from 1 as indices from 0. Throws Error (usage) that names the option.
 std::vector<IndexedValue> indexedListFromArguments(const std::string& option, const std::vector<std::string>& texts)
 {
     const auto notIndexed = [](const std::string&, const std::string& piece) { return !isIndexed(piece); };
@@ -145,8 +145,8 @@ std::vector<IndexedValue> indexedListFromArguments(const std::string& option, co
         const size_t equals = text.find('=');
         IndexedValue value;
         if (!isIndexed(text) || equals + 1 == text.size() ||
-            std::from_chars(text.data(), text.data() + equals, value.index).ec != std::errc()) {
-            throw Error("", fmt::format("{} {} is not understood", option, text), "0=MATERIAL,1=MATERIAL and so on",
+            std::from_chars(text.data(), text.data() + equals, value.index).ec != std::errc() || value.index-- == 0) {
+            throw Error("", fmt::format("{} {} is not understood", option, text), "1=MATERIAL,2=MATERIAL and so on",
                         Error::kUsage);
         }
         value.value = text.substr(equals + 1);
@@ -199,8 +199,9 @@ void requireParts(const std::vector<IndexedValue>& labels, const std::vector<Tra
     for (const IndexedValue& label : labels) {
         if (label.index >= parts.size()) {
             throw Error(
-                "", fmt::format("--labels {}={}: no target has a part {}", label.index, label.value, label.index),
-                fmt::format("0 to {} ({}: {})", parts.size() - 1, most->name, fmt::join(parts, ", ")), Error::kUsage);
+                "",
+                fmt::format("--labels {}={}: no target has a part {}", label.index + 1, label.value, label.index + 1),
+                fmt::format("1 to {} ({}: {})", parts.size(), most->name, fmt::join(parts, ", ")), Error::kUsage);
         }
     }
 }
@@ -255,7 +256,7 @@ TransferSources loadTransferSources(const TransferArguments& arguments)
     sources.rigs = rigsOf(arguments);
     const std::vector<IndexedValue> labels = indexedListFromArguments("--labels", arguments.labels);
     if (arguments.materials.empty() && labels.empty()) {
-        throw Error("", "no material is named", "--materials A,B or --labels 0=A,1=B", Error::kUsage);
+        throw Error("", "no material is named", "--materials A,B or --labels 1=A,2=B", Error::kUsage);
     }
     sources.materialSeconds = secondsOf([&] {
         sources.rows = loadTransferRows(arguments);

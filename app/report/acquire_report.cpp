@@ -11,6 +11,7 @@
 #include "acquisition/chain/acquire.h"
 #include "app/report/acquisition_summary.h"
 #include "app/report/debug_pictures.h"
+#include "app/report/plain_verdict.h"
 #include "app/report/report_figures.h"
 #include "engine/files/whole_file.h"
 #include "evaluation/charts/html_page.h"
@@ -221,6 +222,7 @@ std::string overview(const ReportSubject& subject)
          {"method of the normals", nameOf(estimate.report.method)},
          {"scale of the BRDF", absolute ? "absolute, 1/sr" : "relative, up to one factor"},
          {"time", fmt::format("{:.1f} seconds", seconds)}});
+    html = paragraph(plainVerdict(estimate), "") + html;
     for (const auto* findings : {&estimate.rig.warnings, &estimate.report.findings}) {
         for (const Finding& finding : *findings) {
             const bool standsOut = isWarning(finding.code) || finding.code == FindingCode::photographsLeftOut;

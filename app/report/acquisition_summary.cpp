@@ -13,6 +13,7 @@
 #include "acquisition/capture/capture_layouts.h"
 #include "app/arguments/model_arguments.h"
 #include "app/report/brdf_report.h"
+#include "app/report/plain_verdict.h"
 #include "engine/files/error.h"
 #include "engine/files/measures.h"
 #include "engine/lights/light_files.h"
@@ -57,17 +58,14 @@ double azimuthDegrees(const glm::vec3& d)
     return glm::degrees(std::atan2(d.y, d.x));
 }
 
-// Of the lights and of the normals.
-Json jsonOf(const NormalEstimate& estimate)
+// By code; without a limit null.
+Json jsonOf(const std::vector<CheckFigure>& figures)
 {
-    Json list = Json::array();
-    for (const auto* findings : {&estimate.rig.warnings, &estimate.report.findings}) {
-        for (const Finding& finding : *findings) {
-            list.push_back(
-                {{"code", nameOf(finding.code)}, {"warning", isWarning(finding.code)}, {"text", finding.text}});
-        }
+    Json checks = Json::object();
+    for (const CheckFigure& figure : figures) {
+        checks[std::string(nameOf(figure.code))] = {{"value", figure.value}, {"limit", figure.limit}};
     }
-    return list;
+    return checks;
 }
 
 double meanOf(const std::vector<float>& values)
@@ -242,6 +240,17 @@ std::string describeNormals(const Capture& capture, const NormalEstimate& estima
                        percent * static_cast<double>(sum.highlight), percent * static_cast<double>(sum.saturated));
 }
 
+std::string describeWarnings(const NormalEstimate& estimate)
+{
+    std::string text;
+    for (const auto* findings : {&estimate.rig.warnings, &estimate.report.findings}) {
+        for (const Finding& finding : *findings) {
+            text += isWarning(finding.code) ? lineOf(finding) + "\n" : "";
+        }
+    }
+    return text;
+}
+
 std::string describeBrdf(const Acquisition& acquisition)
 {
     const SampleCounts& counts = acquisition.samples;
@@ -291,6 +300,18 @@ std::string describe(const Light& light)
                        azimuthDegrees(light.direction), light.irradiance.x, light.irradiance.y, light.irradiance.z);
 }
 
+Json findingsOf(const NormalEstimate& estimate)
+{
+    Json list = Json::array();
+    for (const auto* findings : {&estimate.rig.warnings, &estimate.report.findings}) {
+        for (const Finding& finding : *findings) {
+            list.push_back(
+                {{"code", nameOf(finding.code)}, {"warning", isWarning(finding.code)}, {"text", finding.text}});
+        }
+    }
+    return list;
+}
+
 Json summaryOf(const Capture& capture, const NormalEstimate& estimate)
 {
     const Rig& rig = estimate.rig;
@@ -304,7 +325,9 @@ Json summaryOf(const Capture& capture, const NormalEstimate& estimate)
                  {"irradiancesFrom", rig.irradiancesFrom},
                  {"conditionNumber", rig.condition},
                  {"normals", nameOf(estimate.report.method)},
-                 {"findings", jsonOf(estimate)},
+                 {"findings", findingsOf(estimate)},
+                 {"checks", jsonOf(estimate.report.figures)},
+                 {"verdict", plainVerdict(estimate)},
                  {"pixelsWithoutNormal", estimate.pixelsWithoutNormal},
                  {"pixelsInShade", estimate.pixelsInShade},
                  {"pixelsSmoothed", estimate.pixelsSmoothed},

@@ -16,6 +16,8 @@ std::string describeGiven(const Capture& capture, const NormalEstimate& estimate
 std::string describe(const std::vector<StageTime>& times);
 // Method, what it remarked, and how the observations were judged.
 std::string describeNormals(const Capture& capture, const NormalEstimate& estimate);
+// The warnings alone, one a line.
+std::string describeWarnings(const NormalEstimate& estimate);
 
 // Degrees between the rig's directions and those of another file of lights, by the photographs' names, by their order
 // where the file names none of them. The rig has the lights of the capture's photographs `given`.
@@ -31,6 +33,7 @@ std::string describe(const Light& light);
 inline constexpr const char* kLightColumns = "  polar  azimuth      red    green     blue";
 
 nlohmann::json summaryOf(const Capture& capture, const NormalEstimate& estimate);
+nlohmann::json findingsOf(const NormalEstimate& estimate); // of the lights and of the normals
 nlohmann::json summaryOf(const Capture& capture, const Acquisition& acquisition);
 
 } // namespace nacre

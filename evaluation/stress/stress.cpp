@@ -73,9 +73,9 @@ StressEstimate estimateNormals(const PhotographedObject& object, const StressPho
     if (const auto warning = sphereWarning(directionsOf(object.lights), object.shadingDirections)) {
         estimate.warnings.push_back({FindingCode::spheresDisagree, *warning});
     }
-    append(estimate.warnings, heightWarnings(mapOf(object, estimate.block)));
+    append(estimate.warnings, checkHeight(mapOf(object, estimate.block)).findings);
     append(estimate.warnings, warningsOf(sample.lights));
-    append(estimate.warnings, photographs.checked.findings);
+    append(estimate.warnings, photographs.checked.checks.findings);
     append(estimate.warnings, chosen.findings);
     std::erase_if(estimate.warnings, [](const Finding& finding) { return !isWarning(finding.code); });
     return estimate;

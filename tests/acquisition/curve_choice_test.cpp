@@ -1,4 +1,5 @@
 // The curve that photographs of 8 bits tell where their files declare none.
+#include "acquisition/chain/capture_preparation.h"
 #include "acquisition/chain/curve_choice.h"
 
 #include <gtest/gtest.h>
@@ -67,6 +68,23 @@ TEST(CurveChoice, WarningsOfLambertNameAnAssumedCurveFirst)
     nameAssumedCurve(capture, findings);
     EXPECT_EQ(findings[0].text.rfind("--transfer srgb first", 0), 0u);
     EXPECT_EQ(findings[1].text, "bright");
+}
+
+std::vector<Finding> findingsOf(const Capture& capture)
+{
+    return estimateCaptureNormals(capture, {}, [](const std::string&, double) {}).report.findings;
+}
+
+// A diffuse that falls faster than the cosine, in linear files; and photographs that are decoded though they were
+// linear.
+TEST(CurveChoiceSlow, AShadingThatFallsFastIsNoCurve)
+{
+    NACRE_REQUIRE_DATA("found/bunny_matt");
+    EXPECT_FALSE(contains(findingsOf(loadCapture(dataFolder() / "found/bunny_matt")), FindingCode::transferCurveTaken));
+    CaptureOptions options;
+    options.transfer = TransferCurve::srgb;
+    EXPECT_TRUE(
+        contains(findingsOf(loadCapture(dataFolder() / "diligent/ballPNG", options)), FindingCode::transferCurveTaken));
 }
 
 TEST(CurveChoiceSlow, OfRealCapturesIsTheRightOne)

@@ -50,7 +50,7 @@ TEST(HeightConsistency, NormalsOfAHeightAreLeftInPeace)
     EXPECT_LT(*std::max_element(found.axesRatios.begin(), found.axesRatios.end()), 0.3);
     // Differences over two pixels of hills 57 pixels long are off by half a percent.
     EXPECT_LT(glm::length(found.turnDegrees), 1);
-    EXPECT_TRUE(heightWarnings(hills()).empty());
+    EXPECT_TRUE(checkHeight(hills()).findings.empty());
 }
 
 // The normals of a ball whose lights were given by each of the eight symmetries of the picture's axes.
@@ -66,13 +66,13 @@ TEST(HeightConsistency, MixedUpAxesOfTheLightsAreNamed)
                  {{0, 1, -1, 0}, "a quarter counter-clockwise"},
                  {{0, -1, 1, 0}, "a quarter clockwise"}};
     for (const auto& c : cases) {
-        const std::vector<Finding> found = heightWarnings(changed(sphereNormalMap(kSize), glm::mat3(c.axes)));
+        const std::vector<Finding> found = checkHeight(changed(sphereNormalMap(kSize), glm::mat3(c.axes))).findings;
         ASSERT_EQ(found.size(), 1u) << c.text;
         EXPECT_EQ(found[0].code, FindingCode::axesMixed);
         EXPECT_NE(found[0].text.find(c.text), std::string::npos) << found[0].text;
     }
-    EXPECT_TRUE(heightWarnings(sphereNormalMap(kSize)).empty());
-    const std::vector<Finding> hollow = heightWarnings(changed(sphereNormalMap(kSize), glm::mat3(glm::mat2(-1))));
+    EXPECT_TRUE(checkHeight(sphereNormalMap(kSize)).findings.empty());
+    const std::vector<Finding> hollow = checkHeight(changed(sphereNormalMap(kSize), glm::mat3(glm::mat2(-1)))).findings;
     ASSERT_EQ(hollow.size(), 1u);
     EXPECT_EQ(hollow[0].code, FindingCode::hollow);
 }
@@ -81,15 +81,15 @@ TEST(HeightConsistency, ATurnOfAllNormalsIsFoundAndSaid)
 {
     const NormalMap map = changed(hills(), turnAboutX(8));
     EXPECT_NEAR(glm::length(heightConsistencyOf(map).turnDegrees), 8, 1);
-    ASSERT_EQ(heightWarnings(map).size(), 1u);
-    EXPECT_EQ(heightWarnings(map).front().code, FindingCode::lightsTurned);
-    EXPECT_NE(heightWarnings(map).front().text.find("turned by 8 degrees"), std::string::npos)
-        << heightWarnings(map).front().text;
+    ASSERT_EQ(checkHeight(map).findings.size(), 1u);
+    EXPECT_EQ(checkHeight(map).findings.front().code, FindingCode::lightsTurned);
+    EXPECT_NE(checkHeight(map).findings.front().text.find("turned by 8 degrees"), std::string::npos)
+        << checkHeight(map).findings.front().text;
 }
 
 TEST(HeightConsistency, FewPixelsSayNothing)
 {
-    EXPECT_TRUE(heightWarnings(NormalMap(10, 10)).empty());
+    EXPECT_TRUE(checkHeight(NormalMap(10, 10)).findings.empty());
 }
 
 } // namespace

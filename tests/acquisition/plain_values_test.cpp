@@ -61,16 +61,33 @@ TEST(PlainValues, AnEndBelowFullScaleIsFoundAndClippedAt)
     EXPECT_FALSE(endOfValues(seen)) << "what is clipped is known";
 }
 
+TEST(PlainValues, OfAMaskOfTheBackgroundIsTold)
+{
+    constexpr int kSide = 20;
+    const auto masked = [](bool inside, int hole) { // a square in the middle
+        std::vector<uint8_t> mask(kSide * kSide, inside ? 0 : 1);
+        for (int y = 0; y < hole; ++y) {
+            std::fill_n(mask.begin() + ((kSide - hole) / 2 + y) * kSide + (kSide - hole) / 2, hole, inside ? 1 : 0);
+        }
+        return checkMaskBorder(mask, kSide, kSide).findings;
+    };
+    EXPECT_TRUE(masked(true, 10).empty()) << "an object in the middle";
+    EXPECT_TRUE(masked(true, kSide).empty()) << "one that fills the picture";
+    EXPECT_TRUE(masked(false, 4).empty()) << "and has a hole";
+    ASSERT_EQ(masked(false, 10).size(), 1u);
+    EXPECT_EQ(masked(false, 10)[0].code, FindingCode::maskInverted);
+}
+
 TEST(PlainValues, OfAMaskThatIsDarkUnderEveryLightIsTold)
 {
     Observations seen = observed(someLights());
-    EXPECT_TRUE(maskWarnings(seen, true).empty());
-    EXPECT_TRUE(maskWarnings(seen, false).empty());
+    EXPECT_TRUE(checkMask(seen, true).findings.empty());
+    EXPECT_TRUE(checkMask(seen, false).findings.empty());
     std::fill_n(seen.radiance.begin(), seen.radiance.size() / 5, glm::vec3(0.004f));
-    EXPECT_TRUE(maskWarnings(seen, true).empty()) << "a dark part of the object";
-    EXPECT_NE(maskWarnings(seen, false).at(0).text.find("--mask"), std::string::npos) << "a background";
+    EXPECT_TRUE(checkMask(seen, true).findings.empty()) << "a dark part of the object";
+    EXPECT_NE(checkMask(seen, false).findings.at(0).text.find("--mask"), std::string::npos) << "a background";
     std::fill_n(seen.radiance.begin(), seen.radiance.size() / 5, glm::vec3(0.0004f));
-    const std::vector<Finding> found = maskWarnings(seen, true);
+    const std::vector<Finding> found = checkMask(seen, true).findings;
     ASSERT_EQ(found.size(), 1u);
     EXPECT_EQ(found[0].code, FindingCode::maskDark);
     EXPECT_NE(found[0].text.find("20 %"), std::string::npos) << found[0].text;
@@ -80,10 +97,10 @@ TEST(PlainValues, PhotographsThatHardlyDifferAreTold)
 {
     const std::vector<Light> lights = someLights();
     for (const float ambient : {0.0f, 0.3f}) {
-        EXPECT_TRUE(alikeWarnings(observed(lights, ambient), lights).empty()) << ambient;
+        EXPECT_TRUE(checkDifferences(observed(lights, ambient), lights).findings.empty()) << ambient;
     }
     for (const float ambient : {0.9f, 1.0f}) {
-        const std::vector<Finding> found = alikeWarnings(observed(lights, ambient), lights);
+        const std::vector<Finding> found = checkDifferences(observed(lights, ambient), lights).findings;
         ASSERT_EQ(found.size(), 1u) << ambient;
         EXPECT_EQ(found[0].code, FindingCode::photographsAlike);
     }
@@ -91,7 +108,7 @@ TEST(PlainValues, PhotographsThatHardlyDifferAreTold)
                                      {{-0.6f, 0, 0.8f}, glm::vec3(1)},
                                      {{0, 0.6f, 0.8f}, glm::vec3(1)},
                                      {{0, -0.6f, 0.8f}, glm::vec3(1)}};
-    EXPECT_TRUE(alikeWarnings(observed(ring, 0.9f), ring).empty()) << "lights that ask for no difference";
+    EXPECT_TRUE(checkDifferences(observed(ring, 0.9f), ring).findings.empty()) << "lights that ask for no difference";
 }
 
 } // namespace

@@ -27,7 +27,7 @@ const StressSubject& subject()
 std::vector<Finding> warningsAfter(const Degradation& degradation)
 {
     const PhotographedObject object = degraded(subject().clean, degradation);
-    return checkCapture(object.seen, object.lights, {}).findings;
+    return checkCapture(object.seen, object.lights, {}).checks.findings;
 }
 
 TEST(SelfChecks, NothingIsFoundInAGoodCapture)
@@ -66,15 +66,15 @@ TEST(SelfChecks, LambertsMethodsAreDoubtedWhereGlossOrNoiseRules)
     const PhotographedObject object = degraded(subject().clean, noisy);
     const CheckedSample sample = checkCapture(object.seen, object.lights, {});
     const std::vector<Finding> said =
-        methodWarnings(sample, NormalMethod::leastSquares, makeLeastSquaresEstimator(object.lights, {}));
+        checkMethod(sample, NormalMethod::leastSquares, makeLeastSquaresEstimator(object.lights, {})).findings;
     EXPECT_TRUE(contains(said, FindingCode::notLambertian)) << said.size();
 }
 
 TEST(SelfChecks, TooFewPixelsOrLightsAreNotJudged)
 {
     const CheckedSample sample = checkCapture(Observations{}, subject().clean.lights, {});
-    EXPECT_TRUE(sample.findings.empty());
-    EXPECT_TRUE(methodWarnings(sample, NormalMethod::leastSquares, {}).empty());
+    EXPECT_TRUE(sample.checks.findings.empty());
+    EXPECT_TRUE(checkMethod(sample, NormalMethod::leastSquares, {}).findings.empty());
 }
 
 TEST(SphereAgreement, AMisplacedMirrorSphereIsSaidAndScatterIsNot)

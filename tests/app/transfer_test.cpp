@@ -167,7 +167,7 @@ TEST_F(LibraryTest, UncertainPicturesAreSaidAndHatched)
 TEST_F(LibraryTest, PartsWearMaterialsOfTheirOwn)
 {
     const ProgramRun run = transfer(
-        {"--labels", "0=lambert:0.8,0,0,1=lambert:0,0,0.8", "--onto", write("tiles.obj", kTwoTiles), "--rig", "key"});
+        {"--labels", "1=lambert:0.8,0,0,2=lambert:0,0,0.8", "--onto", write("tiles.obj", kTwoTiles), "--rig", "key"});
     ASSERT_EQ(run.exitCode, 0) << run.err;
     const Image picture = loadImage(path("out/key_labels_on_tiles.png"));
     const glm::vec3 left = picture.rgb(20, 24), right = picture.rgb(44, 24);
@@ -222,8 +222,9 @@ TEST_F(LibraryTest, WhatCannotBeTransferredIsRefusedWhole)
     refused({"--materials", good, "--onto", "make:sphere", "--rig", "none.json"}, 3, {"none.json", "does not exist"});
     refused({"--materials", good, "--onto", "make:sphere", "--rig", write("rig.json", kRig) + "#3"}, 2, {"#1 to #2"});
     refused({"--materials", good, "--onto", "make:sphere", "--rig", write("bad.json", "{")}, 3, {"bad.json"});
-    refused({"--labels", "0=lambert:0.5,7=lambert:1", "--onto", "make:sphere"}, 2, {"no target has a part 7"});
-    refused({"--labels", "lambert:0.5", "--onto", "make:sphere"}, 2, {"--labels lambert:0.5", "0=MATERIAL"});
+    refused({"--labels", "1=lambert:0.5,7=lambert:1", "--onto", "make:sphere"}, 2, {"no target has a part 7"});
+    refused({"--labels", "lambert:0.5", "--onto", "make:sphere"}, 2, {"--labels lambert:0.5", "1=MATERIAL"});
+    refused({"--labels", "0=lambert:0.5", "--onto", "make:sphere"}, 2, {"--labels 0=lambert:0.5", "1=MATERIAL"});
     refused({"--onto", "make:sphere"}, 2, {"no material", "--materials"});
     refused({"--materials", good}, 2, {"no target", "--onto"});
     refused({"--materials", good, "--onto", "make:sphere", "--frames", "0"}, 2, {"--frames 0"});
