@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# The figures of every self-check over all captures, a row each: scripts/self_checks.sh NACRE DATA
+# The figures of every self-check over all captures: scripts/self_checks.sh NACRE DATA > docs/self_checks.csv
 # NACRE: the program; DATA: the captures' folder. Figures as "nacre normals --json" lists them; an asterisk: a warning.
 set -euo pipefail
 nacre=$1 data=$2
@@ -10,7 +10,7 @@ row() { # NAME, arguments of nacre normals
     local name=$1
     shift
     "$nacre" normals "$@" -o "$work/n.exr" --json "$work/n.json" --force --quiet 2>"$work/error" || {
-        echo "| $name | $(head -1 "$work/error") |"
+        echo "$name,\"$(head -1 "$work/error")\""
         return
     }
     python3 - "$name" "$work/n.json" <<'P'
@@ -26,13 +26,12 @@ def cell(code):
     value = checks[code]["value"]
     text = f"{value:.1f}" if code in degrees else f"{value:.2f}"
     return text + ("*" if code in found else "")
-others = ", ".join(sorted(code for code in found if code not in codes))
-print(f"| {sys.argv[1]} | " + " | ".join(cell(code) for code in codes) + f" | {others} |")
+others = " ".join(sorted(code for code in found if code not in codes))
+print(",".join([sys.argv[1], *map(cell, codes), others]))
 P
 }
 
-echo "| capture | curve left | taken | near | directions | turned | axes | mask | inverted | alike | unstable | clipped | shadowed | unexplained | other warnings |"
-echo "|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|"
+echo "capture,transfer-curve-left,transfer-curve-taken,lights-near,directions-contradicted,lights-turned,axes-mixed,mask-dark,mask-inverted,photographs-alike,normals-unstable,clipped,shadowed,unexplained,other warnings"
 for name in buddha cat horse; do
     row "$name" "$data/psm/$name" --mirror-sphere "$data/psm/chrome" --diffuse-sphere "$data/psm/gray" --offset auto
 done

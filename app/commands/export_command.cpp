@@ -45,6 +45,7 @@ struct ExportArguments {
     std::filesystem::path web;
     std::filesystem::path normals;
     std::filesystem::path albedo;
+    std::filesystem::path height;
     ParameterExport parameters;
     std::string ptmFormat = "lrgb";
     std::string basis = "hsh";
@@ -63,7 +64,7 @@ struct ExportArguments {
     void check() const;
     bool asksNothingElse() const
     {
-        return ptm.empty() && web.empty() && normals.empty() && albedo.empty() && page.file.empty();
+        return ptm.empty() && web.empty() && normals.empty() && albedo.empty() && height.empty() && page.file.empty();
     }
 };
 
@@ -88,6 +89,7 @@ void requireChoices(const ExportArguments& arguments)
     requireExtension("--ptm", arguments.ptm, {".ptm"});
     requireExtension("--write-normals", arguments.normals, {".png", ".exr"});
     requireExtension("--albedo", arguments.albedo, {".png", ".exr"});
+    requireExtension("--height", arguments.height, {".exr"});
     if (arguments.ptmFormat != "lrgb" && arguments.ptmFormat != "rgb") {
         throw usageError(fmt::format("--ptm-format {} is not known", arguments.ptmFormat), "lrgb or rgb");
     }
@@ -112,12 +114,13 @@ void requireChoices(const ExportArguments& arguments)
 void requireOutputs(const ExportArguments& arguments)
 {
     const ParameterExport& parameters = arguments.parameters;
-    std::vector<fs::path> outputs = {arguments.ptm,       arguments.web,   arguments.normals,    arguments.albedo,
-                                     arguments.page.file, parameters.gltf, parameters.materialX, parameters.balls};
+    std::vector<fs::path> outputs = {arguments.ptm,    arguments.web,        arguments.normals,
+                                     arguments.albedo, arguments.height,     arguments.page.file,
+                                     parameters.gltf,  parameters.materialX, parameters.balls};
     std::erase_if(outputs, [](const fs::path& output) { return output.empty(); });
     if (outputs.empty()) {
         throw usageError("nothing is asked for",
-                         "--page, --ptm, --rti-web, --write-normals, --albedo, --gltf or --materialx");
+                         "--page, --ptm, --rti-web, --write-normals, --albedo, --height, --gltf or --materialx");
     }
     parameters.check();
     for (size_t i = 0; i < outputs.size(); ++i) {
@@ -147,6 +150,7 @@ void ExportArguments::addTo(CLI::App& command)
     command.add_option("--basis", basis, "Functions of --rti-web: hsh (nine) or ptm (six)")->capture_default_str();
     command.add_option("--write-normals", normals, "Normals to write, .png (16 bits, (n + 1) / 2) or .exr")
         ->option_text("FILE");
+    command.add_option("--height", height, "Height to write, .exr: pixels towards the viewer")->option_text("FILE");
     command.add_option("--albedo", albedo, "Colour without shading and gloss to write, .png (16 bits) or .exr")
         ->option_text("FILE");
     command.add_option("--gltf", parameters.gltf, "Surface, or sphere of a material, in glTF's parameters, FILE.glb")
@@ -348,6 +352,12 @@ void exportMaps(const ExportArguments& arguments, const Surface& surface)
     if (!arguments.normals.empty()) {
         saveNormalMap(arguments.normals, surface.normals);
         print(arguments, fmt::format("{}: normals, x right, y up, z to the camera", arguments.normals.string()));
+    }
+    if (!arguments.height.empty()) {
+        saveImage(arguments.height, exportedHeight(surface, arguments.threads), PixelType::float32);
+        print(arguments,
+              fmt::format("{}: heights in pixels, {}", arguments.height.string(),
+                          surface.height.values.empty() ? "integrated from the normals" : "the surface's own"));
     }
     if (!arguments.albedo.empty()) {
         const float scale = saveAlbedo(arguments.albedo, exportedAlbedo(surface));

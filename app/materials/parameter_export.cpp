@@ -230,12 +230,6 @@ void saveBalls(const ParameterExport& asked, const std::vector<std::unique_ptr<F
     saveImage(asked.balls, codes, PixelType::uint8);
 }
 
-Image heightOf(const ParameterExport& asked, const Surface& surface)
-{
-    return surface.height.values.empty() ? heightFromNormals(surface.normals, {.threads = asked.threads}).height
-                                         : surface.height;
-}
-
 // What the .glb's own pictures are, beside what nacre render makes of the surface with its layer and without.
 std::string describeLoss(Surface surface, const std::vector<SurfaceLobes>& lobes, float scale)
 {
@@ -271,7 +265,7 @@ void saveGltf(const ParameterExport& asked, const Source& source, const std::vec
             fmt::print("textures are made smaller, {} pixels to {}\n", side, options.largestTexture);
         }
         Surface surface = source.surface;
-        surface.height = heightOf(asked, surface);
+        surface.height = exportedHeight(surface, asked.threads);
         scene = gltfSurface(surface, surface.height, lobes, name, options);
         if (!asked.quiet) {
             loss = "; " + describeLoss(std::move(surface), lobes, scale);
@@ -345,6 +339,12 @@ void exportParameters(const ParameterExport& asked)
     if (!asked.balls.empty()) {
         saveBalls(asked, all);
     }
+}
+
+Image exportedHeight(const Surface& surface, int threads)
+{
+    return surface.height.values.empty() ? heightFromNormals(surface.normals, {.threads = threads}).height
+                                         : surface.height;
 }
 
 } // namespace nacre

@@ -21,4 +21,7 @@ struct ParameterExport {
 // Throws Error (data) where there is no material, or one that no parameters come near.
 void exportParameters(const ParameterExport& asked);
 
+// The surface's own height, or one integrated from its normals: pixels towards the viewer.
+Image exportedHeight(const Surface& surface, int threads);
+
 } // namespace nacre

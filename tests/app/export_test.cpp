@@ -1,5 +1,6 @@
 // nacre export as its users start it.
 #include <algorithm>
+#include <cmath>
 
 #include <gtest/gtest.h>
 
@@ -56,6 +57,28 @@ protected:
     TempFolder folder_;
     Surface surface_;
 };
+
+// A ball bulges, and heights that are off by a factor or a sign do not.
+TEST_F(Export, HeightIsThatOfTheNormals)
+{
+    ASSERT_EQ(run({"--height", path("h.exr")}).exitCode, 0);
+    const Image height = loadImage(folder_ / "h.exr");
+    const NormalMap& map = surface_.normals;
+    ASSERT_EQ(height.width, map.width);
+    double error = 0, steps = 0;
+    for (int y = 0; y < map.height; ++y) {
+        for (int x = 0; x + 1 < map.width; ++x) {
+            const glm::vec3 a = map.normals[map.index(x, y)], b = map.normals[map.index(x + 1, y)];
+            if (a.z > 0.7f && b.z > 0.7f) { // steeper, a pixel's step is no slope
+                const float slope = -(a.x / a.z + b.x / b.z) / 2;
+                error += std::abs(height.at(x + 1, y) - height.at(x, y) - slope);
+                ++steps;
+            }
+        }
+    }
+    ASSERT_GT(steps, 100);
+    EXPECT_LT(error / steps, 0.05); // of slopes up to 1
+}
 
 TEST_F(Export, FilesOpenAndShowTheSurface)
 {
