@@ -27,7 +27,7 @@ void print(const TargetReport& report)
     fmt::print("height       {:.1f} to {:.1f} pixels\n", *lowest, *highest);
     for (size_t i = 0; i < surface.parts.size(); ++i) {
         const auto pixels = std::count(surface.labels.begin(), surface.labels.end(), i);
-        fmt::print("part {:<7} {}: {} pixels\n", i, surface.parts[i], pixels);
+        fmt::print("part {:<7} {}: {} pixels\n", i + 1, surface.parts[i], pixels);
     }
     double sum = 0;
     fmt::print("seconds      ");
