@@ -2,6 +2,8 @@
 #include <filesystem>
 #include <string>
 
+#include "engine/surface/surface.h"
+
 namespace nacre {
 
 // nacre export --gltf, --materialx and --balls: a material, or all of a surface, as parameters of other programs.
