@@ -146,7 +146,7 @@ Highlight findHighlight(const Image& photograph, const Circle& outline, const st
     }
     if (region.cut) {
         throw Error(source,
-                    fmt::format("its highlight, {:.0f}, {:.0f} from the sphere's middle, is cut by its outline or the "
+                    fmt::format("its highlight, {:.0f}, {:.0f} from the middle, is cut by the sphere's outline or the "
                                 "frame",
                                 region.sumX / region.light - outline.x, region.sumY / region.light - outline.y),
                     "a highlight wholly inside both");
