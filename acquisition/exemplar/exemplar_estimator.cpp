@@ -80,9 +80,12 @@ NormalBlock judgedBlock(const ExemplarSetup& setup, const PixelLattice& pixels, 
                 continue;
             }
             const auto used = std::count(verdicts.begin(), verdicts.end(), Verdict::used);
-            block.pixels[p] = {normalOfBallTexel(matches[p].texel, setup.model.grid->size),
-                               matches[p].scale * pixels.bright[p],
-                               confidenceOf(observed, predicted, verdicts, setup.lights), static_cast<uint16_t>(used)};
+            const glm::vec3 normal = normalOfBallTexel(matches[p].texel, setup.model.grid->size);
+            // A BRDF is reciprocal: where e^u(n.l) is in it, e^u(n.v) is, too, and not in the albedo.
+            const float albedo =
+                matches[p].scale * pixels.bright[p] / std::exp(setup.model.match.reflectance.shadeAt(normal.z));
+            block.pixels[p] = {normal, albedo, confidenceOf(observed, predicted, verdicts, setup.lights),
+                               static_cast<uint16_t>(used)};
         }
     });
     return block;
