@@ -148,6 +148,10 @@ ReflectanceBall makeReflectanceBall(const BallGrid& grid, const Reflectance& ref
             for (size_t i = 0; i < grid.lightCount; ++i) {
                 const size_t at = row * grid.stride + i;
                 const float cosine = grid.cosines[at];
+                ball.diffuse[at] = reflectance.bounced;
+                if (!reflectance.additive) {
+                    ball.roots[at] = std::sqrt(reflectance.bounced);
+                }
                 if (cosine <= 0) {
                     continue;
                 }
@@ -155,7 +159,7 @@ ReflectanceBall makeReflectanceBall(const BallGrid& grid, const Reflectance& ref
                 const float share = grid.halfBins[at] - static_cast<float>(bin);
                 const float* profile = &profiles[i * kHalfBins + bin];
                 const float lobe = (profile[0] * (1 - share) + profile[1] * share) * cosine;
-                ball.diffuse[at] = shades[at] * (reflectance.additive ? cosine : lobe);
+                ball.diffuse[at] += shades[at] * (reflectance.additive ? cosine : lobe);
                 if (reflectance.additive) {
                     ball.gloss[at] = lobe;
                 } else {

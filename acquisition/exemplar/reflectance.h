@@ -15,12 +15,14 @@ constexpr int kShadeKnots = 17; // n.l = 0, 1/16, ... 1
 
 // A grey reflectance as a fixed view sees it, up to each pixel's albedo a. What a pixel with normal n shows of a light
 // of irradiance 1 is
-//   a T(thetaH, thetaD) e^u(n.l) n.l           where gloss is scaled by the albedo, or
-//   (a e^u(n.l) + T(thetaH, thetaD)) n.l       where gloss is common to the object (additive), whatever the albedo.
-// u is how the diffuse part departs from Lambert's law: 0 is none.
+//   a (T(thetaH, thetaD) e^u(n.l) n.l + b)       where gloss is scaled by the albedo, or
+//   a (e^u(n.l) n.l + b) + T(thetaH, thetaD) n.l where gloss is common to the object (additive), whatever the albedo.
+// u is how the diffuse part departs from Lambert's law: 0 is none. b is light that reaches the pixel by way of its
+// surroundings, wherever the lamp stands: 0 is none.
 struct Reflectance {
     bool additive = false;
     std::array<float, kShadeKnots> shade{};                                          // u
+    float bounced = 0;                                                               // b
     std::vector<float> lobe = std::vector<float>(kHalfBins * kDifferenceBins, 1.0f); // T [half * bins + difference]
 
     float shadeAt(float cosine) const;

@@ -29,6 +29,10 @@ constexpr double kPixelsWithSay = 0.8;
 // Additive gloss is measured against what is diffuse, which counts from here on.
 constexpr float kDiffuseThetaH = 40; // degrees
 constexpr float kAnchorFrom = 40, kAnchorTo = 70;
+// n.l of pixels that face away from a light by six degrees or more, whatever their normals' errors are.
+constexpr float kFacingAway = -0.1f;
+constexpr size_t kFewestFacingAway = 100;
+constexpr double kLeastBounced = 0.25;
 // A bin of so many observations counts half against its neighbours.
 constexpr double kHalfCounted = 10, kHalfCountedShade = 30;
 // Curvature of u costs much, since n.l and the normal's slant are easily taken for each other.
@@ -71,7 +75,7 @@ void addSamples(const PixelLattice& lattice, const MatchModel& model, const Ball
         const int half = std::min(static_cast<int>(halfBinOf(glm::dot(normal, grid.halves[i]))), kHalfBins - 1),
                   difference = std::min(static_cast<int>(differenceBinOf(grid.halves[i].z, grid.largestThetaD)),
                                         kDifferenceBins - 1);
-        const float value = observed / cosine;
+        const float value = std::max(0.0f, observed - match.scale * model.reflectance.bounced) / cosine;
         samples.push_back({half * kDifferenceBins + difference, value,
                            std::log(std::max(kLeastValue, value / match.scale)), match.scale, bright, cosine});
     }
@@ -270,6 +274,23 @@ void fitGloss(const std::vector<FitSample>& samples, float albedo, float unit, i
     }
 }
 
+// b, from lights that the pixels face away from: what three quarters of these observations show at least, since shade
+// is not lit alike and noise alone shows nothing.
+float bouncedLight(const PixelLattice& lattice, const BallGrid& grid, const std::vector<BallMatch>& matches)
+{
+    std::vector<float> shares;
+    for (const size_t p : spreadPixels(matches.size(), kMostFitted / lattice.lightCount + 1)) {
+        const glm::vec3 normal = normalOfBallTexel(matches[p].texel, grid.size);
+        for (size_t i = 0; i < lattice.lightCount && matches[p].scale > 0; ++i) {
+            const float value = lattice.intensities.ofPixel(p)[i];
+            if (!isClipped(value) && glm::dot(normal, grid.directions[i]) < kFacingAway) {
+                shares.push_back(value / (lattice.bright[p] * matches[p].scale));
+            }
+        }
+    }
+    return shares.size() < kFewestFacingAway ? 0.0f : std::max(0.0f, quantile(shares, kLeastBounced));
+}
+
 float medianAlbedo(const PixelLattice& lattice, const std::vector<BallMatch>& matches)
 {
     std::vector<float> albedos;
@@ -310,6 +331,7 @@ void fitReflectance(const PixelLattice& lattice, bool additive, int threads, Mat
     for (BallMatch& match : matches) {
         match.scale *= anchor;
     }
+    reflectance.bounced = bouncedLight(lattice, *model.ball.grid, matches);
     if (additive) {
         fitGloss(samples, anchor, kGlossUnit * medianAlbedo(lattice, matches), threads, reflectance);
     }
