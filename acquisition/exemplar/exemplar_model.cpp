@@ -6,8 +6,10 @@
 #include <utility>
 
 #include <fmt/format.h>
+#include <glm/geometric.hpp>
 
 #include "acquisition/exemplar/exemplar_hypotheses.h"
+#include "acquisition/exemplar/joint_refinement.h"
 #include "acquisition/exemplar/reflectance_fit.h"
 #include "engine/files/parallel_for.h"
 
@@ -16,8 +18,8 @@ namespace nacre {
 namespace {
 
 constexpr size_t kMostCoarsest = 700;
-// Passes on a finer level go on while the cost falls by so much.
-constexpr int kMostPasses = 4;
+// At most so many passes on a finer level, while the cost falls by so much.
+constexpr int kMostPasses = 2;
 constexpr double kLeastGain = 0.005;
 
 const std::vector<int> kNarrowSteps{4, 2, 1};
@@ -30,6 +32,11 @@ constexpr size_t kMatchedPerTask = 256;
 // A match that costs so many times the typical one is sought again from texels so far apart all over the ball.
 constexpr float kFarCost = 3;
 constexpr int kFarStep = 8;
+// Grazing light by n.l, of so many pixels. Where half of it shows less than this share of what is predicted, the
+// horizon says nothing of slopes.
+constexpr float kLeastGrazing = 0.03f, kMostGrazing = 0.12f;
+constexpr size_t kMostGrazed = 1000, kFewestGrazed = 100;
+constexpr float kUnlitShare = 0.5f;
 
 struct CoarserLevel {
     PixelLattice lattice;
@@ -82,6 +89,56 @@ float improve(const PixelLattice& lattice, int threads, MatchModel& model, std::
     return typical;
 }
 
+// Whether most of what lights graze is dark: then light ends before the horizon does, by values that were taken off
+// the photographs or a curve that crushes shadows, or lies below the noise.
+bool endsBeforeTheHorizon(const PixelLattice& lattice, const MatchModel& model, const std::vector<BallMatch>& matches)
+{
+    const BallGrid& grid = *model.ball.grid;
+    std::vector<float> shares, predicted(lattice.lightCount);
+    for (const size_t p : spreadPixels(matches.size(), kMostGrazed)) {
+        const glm::vec3 normal = normalOfBallTexel(matches[p].texel, grid.size);
+        predictMatch(model, matches[p], lattice.bright[p], predicted.data());
+        for (size_t i = 0; i < lattice.lightCount; ++i) {
+            const float value = lattice.intensities.ofPixel(p)[i], cosine = glm::dot(normal, grid.directions[i]);
+            if (!isClipped(value) && cosine > kLeastGrazing && cosine < kMostGrazing && predicted[i] > 0) {
+                shares.push_back(value / predicted[i]);
+            }
+        }
+    }
+    return shares.size() >= kFewestGrazed && quantile(shares, 0.5) < kUnlitShare;
+}
+
+// Normals and reflectance at once, gloss scaled by the albedo and not: of both, and of what is there, what explains the
+// observations best. Slopes hang on where light ends, at n.l = 0: all stays as it is where that cannot be seen. Answers
+// the matches' median cost.
+float refineBothForms(const PixelLattice& lattice, int threads, MatchModel& model, std::vector<BallMatch>& matches)
+{
+    if (endsBeforeTheHorizon(lattice, model, matches)) {
+        return medianCost(matches);
+    }
+    const bool isAdditive = model.reflectance.additive;
+    MatchModel best = model;
+    std::vector<BallMatch> bestMatches = matches;
+    polishMatches(best, lattice, threads, bestMatches);
+    for (const bool additive : {isAdditive, !isAdditive}) {
+        MatchModel tried = model;
+        std::vector<BallMatch> moved = matches;
+        if (additive != isAdditive) {
+            refitModel(lattice, additive, threads, tried, moved);
+        }
+        refineJointly(lattice, threads, tried, moved);
+        sweepMatches(tried, lattice, kNarrowSteps, {}, threads, moved);
+        polishMatches(tried, lattice, threads, moved);
+        if (meanCost(moved) < meanCost(bestMatches)) {
+            best = std::move(tried);
+            bestMatches = std::move(moved);
+        }
+    }
+    model = std::move(best);
+    matches = std::move(bestMatches);
+    return medianCost(matches);
+}
+
 // The hypothesis that predicts held-out lights best; without a jury the one of least cost.
 Hypothesis bestHypothesis(std::vector<Hypothesis> all, const PixelLattice& lattice, const Jury* jury, int threads,
                           std::vector<Finding>& findings)
@@ -131,6 +188,7 @@ ExemplarModel makeExemplarModel(const Intensities& sample, const std::vector<Lig
         }
         model.typicalCost = improve(model.lattice, options.threads, best.model, best.matches);
     }
+    model.typicalCost = refineBothForms(model.lattice, options.threads, best.model, best.matches);
     model.match = std::move(best.model);
     model.matches = std::move(best.matches);
     model.nearest = nearestPixels(model.lattice);

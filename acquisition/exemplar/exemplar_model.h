@@ -21,8 +21,8 @@ struct ExemplarModel {
 };
 
 // Hypotheses on the coarsest level; the one that predicts the lights best which the jury holds out (null: the one of
-// least cost) goes down to the lattice, and is then improved under all lights. Findings say what was chosen. `sample`:
-// pixels from all over the object.
+// least cost) goes down to the lattice, and is then improved under all lights, reflectance and normals at once in the
+// end. Findings say what was chosen. `sample`: pixels from all over the object.
 ExemplarModel makeExemplarModel(const Intensities& sample, const std::vector<Light>& lights,
                                 const NormalOptions& options, const Jury* jury, std::vector<Finding>& findings);
 

@@ -1,5 +1,4 @@
 #include <cmath>
-#include <functional>
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
@@ -8,73 +7,19 @@
 #include "acquisition/exemplar/neighbour_search.h"
 #include "acquisition/exemplar/reflectance_fit.h"
 #include "engine/files/measures.h"
+#include "tests/acquisition/shaded_scene.h"
 
 namespace nacre {
 
 namespace {
 
-// Lights all over the part of the sky that most rigs reach, 15 to 60 degrees from the camera.
-std::vector<Light> lightsAround(int count)
-{
-    std::vector<Light> lights;
-    for (int i = 0; i < count; ++i) {
-        const float share = (static_cast<float>(i) + 0.5f) / static_cast<float>(count), z = 0.97f - 0.47f * share,
-                    phi = 2.39996f * static_cast<float>(i), r = std::sqrt(1 - z * z);
-        lights.push_back({glm::vec3(r * std::cos(phi), r * std::sin(phi), z), glm::vec3(1)});
-    }
-    return lights;
-}
-
-using Shading = std::function<float(size_t pixel, const glm::vec3& n, const glm::vec3& l)>;
-
-// A picture of normals, and what lights of irradiance 1 show of it: shading times n.l.
-struct Scene {
-    std::vector<Light> lights;
-    std::vector<glm::vec3> normals;
-    Intensities intensities;
-};
-
-Scene photograph(int width, int height, const std::function<glm::vec3(float x, float y)>& normalAt,
-                 const Shading& shading, int lights = 36)
-{
-    Scene scene{lightsAround(lights), {}, {}};
-    std::vector<uint32_t> places;
-    for (int y = 0; y < height; ++y) {
-        for (int x = 0; x < width; ++x) {
-            const glm::vec3 normal = normalAt((2.0f * static_cast<float>(x) + 1) / static_cast<float>(width) - 1,
-                                              1 - (2.0f * static_cast<float>(y) + 1) / static_cast<float>(height));
-            if (normal.z > 0) {
-                scene.normals.push_back(normal);
-                places.push_back(static_cast<uint32_t>(y * width + x));
-            }
-        }
-    }
-    scene.intensities = makeIntensities(places.size(), scene.lights.size());
-    scene.intensities.places = places;
-    scene.intensities.width = width;
-    for (size_t p = 0; p < places.size(); ++p) {
-        for (size_t i = 0; i < scene.lights.size(); ++i) {
-            const float cosine = glm::dot(scene.normals[p], scene.lights[i].direction);
-            scene.intensities.values[p * scene.intensities.stride + i] =
-                cosine > 0 ? cosine * shading(p, scene.normals[p], scene.lights[i].direction) : 0;
-        }
-    }
-    return scene;
-}
-
-glm::vec3 sphere(float x, float y)
-{
-    const float z = 1 - x * x - y * y;
-    return z > 0.04f ? glm::vec3(x, y, std::sqrt(z)) : glm::vec3(0);
-}
-
-NormalBlock estimated(const Scene& scene, const NormalOptions& options = {})
+NormalBlock estimated(const ShadedScene& scene, const NormalOptions& options = {})
 {
     std::vector<Finding> findings;
     return makeExemplarEstimator(scene.intensities, scene.lights, options, findings)(scene.intensities);
 }
 
-double meanError(const Scene& scene, const NormalBlock& block)
+double meanError(const ShadedScene& scene, const NormalBlock& block)
 {
     double sum = 0;
     for (size_t p = 0; p < scene.normals.size(); ++p) {
@@ -83,15 +28,9 @@ double meanError(const Scene& scene, const NormalBlock& block)
     return sum / static_cast<double>(scene.normals.size());
 }
 
-double consensusError(const Scene& scene)
+double consensusError(const ShadedScene& scene)
 {
     return meanError(scene, makeConsensusEstimator(scene.lights, {})(scene.intensities));
-}
-
-float gloss(const glm::vec3& n, const glm::vec3& l, float width)
-{
-    const float cosine = glm::dot(n, glm::normalize(l + glm::vec3(0, 0, 1)));
-    return std::exp(-(1 - cosine) / (width * width));
 }
 
 } // namespace
@@ -111,7 +50,7 @@ TEST(Exemplar, BallTexelsAndNormalsAreEachOther)
 
 TEST(Exemplar, FollowsADiffuseLawThatIsNotLamberts)
 {
-    const Scene scene = photograph(
+    const ShadedScene scene = photograph(
         48, 48, sphere, [](size_t, const glm::vec3& n, const glm::vec3& l) { return std::pow(glm::dot(n, l), 0.3f); });
     // What is left is where n.l and the slant of the normal are told apart by few lights.
     EXPECT_GT(consensusError(scene), 3);
@@ -121,7 +60,7 @@ TEST(Exemplar, FollowsADiffuseLawThatIsNotLamberts)
 // Paint of two albedos, six times apart, under one coat of varnish: albedo must not scale its gloss.
 TEST(Exemplar, GlossNeedNotFollowTheAlbedo)
 {
-    const Scene scene = photograph(64, 64, sphere, [](size_t p, const glm::vec3& n, const glm::vec3& l) {
+    const ShadedScene scene = photograph(64, 64, sphere, [](size_t p, const glm::vec3& n, const glm::vec3& l) {
         return (p / 7 % 2 == 0 ? 0.1f : 0.6f) + 1.5f * gloss(n, l, 0.25f);
     });
     EXPECT_GT(consensusError(scene), 2);
@@ -143,7 +82,7 @@ std::vector<BallMatch> matchesAlone(const ExemplarModel& model, const PixelLatti
     return matches;
 }
 
-double meanMatchError(const Scene& scene, const std::vector<BallMatch>& matches,
+double meanMatchError(const ShadedScene& scene, const std::vector<BallMatch>& matches,
                       const std::function<bool(int x)>& counts)
 {
     double sum = 0, count = 0;
@@ -156,7 +95,7 @@ double meanMatchError(const Scene& scene, const std::vector<BallMatch>& matches,
     return sum / count;
 }
 
-void expectNothingLost(const Scene& scene, const std::function<bool(int x)>& counts)
+void expectNothingLost(const ShadedScene& scene, const std::function<bool(int x)>& counts)
 {
     std::vector<Finding> findings;
     const ExemplarModel model = makeExemplarModel(scene.intensities, scene.lights, {}, nullptr, findings);
@@ -172,7 +111,7 @@ TEST(ExemplarSlow, SmoothsNeitherEdgesNorTexture)
 {
     const auto shading = [](size_t, const glm::vec3& n, const glm::vec3& l) { return 0.5f + gloss(n, l, 0.3f); };
     constexpr int kSide = 48;
-    const Scene roof = photograph(
+    const ShadedScene roof = photograph(
         kSide, kSide,
         [](float x, float y) {
             const float slope = 1.0f + 0.4f * (std::abs(x) - 0.5f); // 45 degrees where the two sides meet, on the whole
@@ -182,7 +121,7 @@ TEST(ExemplarSlow, SmoothsNeitherEdgesNorTexture)
     expectNothingLost(roof, [](int x) { return x == kSide / 2 - 1 || x == kSide / 2; });
     for (const float period : {4.0f, 6.0f, 8.0f}) {
         const float turn = 2 * 3.14159265f / period, steepest = turn / 2; // of a sine one pixel from top to bottom
-        const Scene bumps = photograph(
+        const ShadedScene bumps = photograph(
             kSide, kSide,
             [&](float x, float y) {
                 return glm::normalize(
@@ -195,8 +134,8 @@ TEST(ExemplarSlow, SmoothsNeitherEdgesNorTexture)
 
 TEST(Exemplar, PixelsThatNobodyPlacedAreEstimatedToo)
 {
-    Scene scene = photograph(48, 48, sphere,
-                             [](size_t, const glm::vec3& n, const glm::vec3& l) { return 0.4f + gloss(n, l, 0.3f); });
+    ShadedScene scene = photograph(
+        48, 48, sphere, [](size_t, const glm::vec3& n, const glm::vec3& l) { return 0.4f + gloss(n, l, 0.3f); });
     scene.intensities.width = 0;
     scene.intensities.places.clear();
     EXPECT_LT(meanError(scene, estimated(scene)), 1);
@@ -205,7 +144,7 @@ TEST(Exemplar, PixelsThatNobodyPlacedAreEstimatedToo)
 // What a block of rows is estimated to be depends on the others through the reflectance and the start alone.
 TEST(Exemplar, BlocksOfRowsGiveWhatTheWholeGives)
 {
-    const Scene scene = photograph(
+    const ShadedScene scene = photograph(
         96, 96, sphere, [](size_t, const glm::vec3& n, const glm::vec3& l) { return 0.4f + gloss(n, l, 0.3f); });
     std::vector<Finding> findings;
     const NormalEstimator estimator = makeExemplarEstimator(scene.intensities, scene.lights, {}, findings);
@@ -224,7 +163,7 @@ TEST(Exemplar, BlocksOfRowsGiveWhatTheWholeGives)
 
 TEST(Exemplar, FitRecoversTheReflectanceThatItWasMadeOf)
 {
-    const Scene scene = photograph(
+    const ShadedScene scene = photograph(
         64, 64, sphere, [](size_t, const glm::vec3& n, const glm::vec3& l) { return 0.5f + 0.5f * gloss(n, l, 0.3f); });
     const BallGrid grid = makeBallGrid(64, scene.lights, 1);
     const PixelLattice lattice = makePixelLattice(scene.intensities, 1);

@@ -1,0 +1,157 @@
+#include "acquisition/exemplar/reflectance_slopes.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <glm/geometric.hpp>
+
+namespace nacre {
+
+namespace {
+
+constexpr double kLeastLobe = 1e-6;
+// The slope of a root is infinite at 0: it is taken here at least.
+constexpr float kLeastRoot = 0.03f;
+
+// A place between two of so many knots.
+struct Between {
+    int knot;
+    float share; // of the next one
+    bool isInside;
+};
+
+Between between(float place, int knots)
+{
+    const float last = static_cast<float>(knots) - 1.001f, clamped = std::clamp(place, 0.0f, last);
+    const int knot = static_cast<int>(clamped);
+    return {knot, clamped - static_cast<float>(knot), place > 0 && place < last};
+}
+
+// T where a normal's thetaH meets a light's thetaD: four texels, bilinearly.
+struct LobeAt {
+    std::array<int, 4> texels{};
+    std::array<float, 4> weights{};
+    float value = 0, byCosine = 0; // by cos(thetaH)
+};
+
+LobeAt lobeAt(const std::vector<float>& lobe, const LightPlace& light, float cosHalf)
+{
+    const float place = halfBinOf(cosHalf) - 0.5f;
+    const Between half = between(place, kHalfBins);
+    const int first = half.knot * kDifferenceBins + light.difference;
+    const float next = light.nextShare;
+    LobeAt at;
+    at.texels = {first, first + 1, first + kDifferenceBins, first + kDifferenceBins + 1};
+    at.weights = {(1 - half.share) * (1 - next), (1 - half.share) * next, half.share * (1 - next), half.share * next};
+    for (int k = 0; k < 4; ++k) {
+        at.value += at.weights[k] * lobe[at.texels[k]];
+    }
+    if (half.isInside) {
+        // Bins go with sqrt(thetaH): d bin / d thetaH = bin / (2 thetaH), and d thetaH / d cos = -1 / sin.
+        const float theta = std::acos(std::clamp(cosHalf, -1.0f, 1.0f));
+        const float byBin =
+            (1 - next) * (lobe[at.texels[2]] - lobe[at.texels[0]]) + next * (lobe[at.texels[3]] - lobe[at.texels[1]]);
+        at.byCosine = -byBin * (place + 0.5f) / (2 * theta * std::max(std::sin(theta), 1e-4f));
+    }
+    return at;
+}
+
+} // namespace
+
+Eigen::VectorXd unknownsOf(const Reflectance& reflectance, float unit)
+{
+    Eigen::VectorXd unknowns(kReflectanceUnknowns);
+    for (int k = 0; k < kLobeUnknowns; ++k) {
+        const double value = reflectance.lobe[k];
+        unknowns[k] = reflectance.additive ? std::asinh(value / unit) : std::log(std::max(value, kLeastLobe));
+    }
+    for (int k = 0; k < kShadeKnots; ++k) {
+        unknowns[kLobeUnknowns + k] = reflectance.shade[k];
+    }
+    return unknowns;
+}
+
+SlopedReflectance reflectanceOf(const Eigen::VectorXd& unknowns, float unit, const Reflectance& like)
+{
+    SlopedReflectance result{like, std::vector<float>(kLobeUnknowns)};
+    for (int k = 0; k < kLobeUnknowns; ++k) {
+        const double z = unknowns[k];
+        result.reflectance.lobe[k] = static_cast<float>(like.additive ? unit * std::sinh(z) : std::exp(z));
+        result.lobeSlopes[k] = static_cast<float>(like.additive ? unit * std::cosh(z) : std::exp(z));
+    }
+    for (int k = 0; k < kShadeKnots; ++k) {
+        result.reflectance.shade[k] = static_cast<float>(unknowns[kLobeUnknowns + k]);
+    }
+    return result;
+}
+
+NormalBasis basisOf(const glm::vec3& normal)
+{
+    const glm::vec3 aside = std::abs(normal.x) < 0.7f ? glm::vec3(1, 0, 0) : glm::vec3(0, 1, 0);
+    const glm::vec3 across = glm::normalize(glm::cross(aside, normal));
+    return {across, glm::cross(normal, across)};
+}
+
+std::vector<LightPlace> lightPlaces(const BallGrid& grid)
+{
+    std::vector<LightPlace> places;
+    for (size_t i = 0; i < grid.lightCount; ++i) {
+        const Between at = between(differenceBinOf(grid.halves[i].z, grid.largestThetaD) - 0.5f, kDifferenceBins);
+        places.push_back({grid.directions[i], grid.halves[i], at.knot, at.share});
+    }
+    return places;
+}
+
+RootSlopes rootSlopes(const SlopedReflectance& sloped, const PixelGuess& guess, const NormalBasis& basis, float bright,
+                      const LightPlace& light)
+{
+    const Reflectance& reflectance = sloped.reflectance;
+    const float cosine = glm::dot(guess.normal, light.direction), scale = std::exp(guess.logScale);
+    RootSlopes result;
+    if (cosine <= 0) {
+        result.root = std::sqrt(scale * reflectance.bounced);
+        result.byPixel[2] = result.root / 2;
+        return result;
+    }
+    const LobeAt lobe = lobeAt(reflectance.lobe, light, glm::dot(guess.normal, light.half));
+    const Between knot = between(cosine * (kShadeKnots - 1), kShadeKnots);
+    const float shade = std::exp(reflectance.shadeAt(cosine)),
+                shadeSlope = (reflectance.shade[knot.knot + 1] - reflectance.shade[knot.knot]) * (kShadeKnots - 1);
+    // What is shown, a p + b a, and its derivatives by n.l, cos(thetaH), log a, T and u.
+    float value, byCosine, byHalf, byScale, byLobe, byShade;
+    if (reflectance.additive) {
+        const float matte = scale * shade * cosine, gloss = lobe.value * cosine / bright;
+        const bool isAll = matte + gloss > kLeastGlossShare * matte;
+        const float share = isAll ? 1.0f : kLeastGlossShare, glossy = isAll ? 1 / bright : 0.0f;
+        byScale = byShade = share * matte;
+        value = byScale + glossy * lobe.value * cosine;
+        byCosine = share * scale * shade * (1 + cosine * shadeSlope) + glossy * lobe.value;
+        byHalf = glossy * lobe.byCosine * cosine;
+        byLobe = glossy * cosine;
+    } else {
+        byLobe = scale * shade * cosine;
+        value = byScale = byShade = byLobe * lobe.value;
+        byCosine = scale * lobe.value * shade * (1 + cosine * shadeSlope);
+        byHalf = byLobe * lobe.byCosine;
+    }
+    value += scale * reflectance.bounced;
+    byScale += scale * reflectance.bounced;
+    result.root = std::sqrt(value);
+    const float half = 0.5f / std::max(result.root, kLeastRoot); // d sqrt(v) = dv / 2 sqrt(v)
+    const auto byStep = [&](const glm::vec3& step) {
+        return half * (byCosine * glm::dot(step, light.direction) + byHalf * glm::dot(step, light.half));
+    };
+    result.byPixel = {byStep(basis.across), byStep(basis.along), half * byScale};
+    for (int k = 0; k < 4; ++k) {
+        result.unknowns[k] = lobe.texels[k];
+        result.byUnknown[k] = half * byLobe * lobe.weights[k] * sloped.lobeSlopes[lobe.texels[k]];
+    }
+    result.unknowns[4] = kLobeUnknowns + knot.knot;
+    result.byUnknown[4] = half * byShade * (1 - knot.share);
+    result.unknowns[5] = kLobeUnknowns + knot.knot + 1;
+    result.byUnknown[5] = half * byShade * knot.share;
+    result.count = 6;
+    return result;
+}
+
+} // namespace nacre

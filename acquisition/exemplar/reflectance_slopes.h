@@ -1,0 +1,61 @@
+#pragma once
+#include <array>
+#include <vector>
+
+#include <Eigen/Core>
+#include <glm/vec3.hpp>
+
+#include "acquisition/exemplar/reflectance.h"
+
+namespace nacre {
+
+// The numbers that make a reflectance: T by its logarithm, or where gloss is additive, and may be negative, by
+// asinh(T / unit); then u.
+constexpr int kLobeUnknowns = kHalfBins * kDifferenceBins;
+constexpr int kReflectanceUnknowns = kLobeUnknowns + kShadeKnots;
+
+Eigen::VectorXd unknownsOf(const Reflectance& reflectance, float unit);
+
+// A reflectance by its unknowns, with what it takes to differentiate what it shows.
+struct SlopedReflectance {
+    Reflectance reflectance;
+    std::vector<float> lobeSlopes; // of T by its unknown
+};
+
+// `like` says what the unknowns do not: the form and b.
+SlopedReflectance reflectanceOf(const Eigen::VectorXd& unknowns, float unit, const Reflectance& like);
+
+// A pixel by its normal and its albedo over its own bright level.
+struct PixelGuess {
+    size_t pixel = 0;
+    glm::vec3 normal{0, 0, 1};
+    float logScale = 0;
+};
+
+// Two directions across a normal.
+struct NormalBasis {
+    glm::vec3 across{0}, along{0};
+};
+NormalBasis basisOf(const glm::vec3& normal);
+
+// A light as the bins of thetaD see it.
+struct LightPlace {
+    glm::vec3 direction{0}, half{0};
+    int difference = 0;  // bin of thetaD
+    float nextShare = 0; // of the bin beyond
+};
+std::vector<LightPlace> lightPlaces(const BallGrid& grid);
+
+// The root of what a pixel shows of a light, over its bright level, and its derivatives: by steps of the normal across
+// and along its basis, by logScale, and by the few unknowns that it depends on.
+struct RootSlopes {
+    float root = 0;
+    std::array<float, 3> byPixel{};
+    std::array<int, 6> unknowns{};
+    std::array<float, 6> byUnknown{};
+    int count = 0; // of the unknowns
+};
+RootSlopes rootSlopes(const SlopedReflectance& sloped, const PixelGuess& guess, const NormalBasis& basis, float bright,
+                      const LightPlace& light);
+
+} // namespace nacre

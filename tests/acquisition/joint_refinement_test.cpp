@@ -1,0 +1,157 @@
+#include "acquisition/exemplar/joint_refinement.h"
+
+#include <cmath>
+
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+
+#include "acquisition/exemplar/reflectance_fit.h"
+#include "acquisition/exemplar/reflectance_slopes.h"
+#include "engine/files/measures.h"
+#include "tests/acquisition/shaded_scene.h"
+
+namespace nacre {
+
+namespace {
+
+float varnish(size_t, const glm::vec3& n, const glm::vec3& l)
+{
+    return 0.3f + 0.5f * gloss(n, l, 0.25f);
+}
+
+// A model of the scene from normals that stand as wrong as the reflectance lets them: slopes are multiplied, and the
+// reflectance is then fitted to them.
+struct Start {
+    PixelLattice lattice;
+    BallGrid grid;
+    MatchModel model;
+    std::vector<BallMatch> matches;
+};
+
+void startWith(const ShadedScene& scene, float slopes, bool additive, Start& start)
+{
+    start.lattice = makePixelLattice(scene.intensities, 1);
+    start.grid = makeBallGrid(kBallSize, scene.lights, 1);
+    start.model.ball = makeReflectanceBall(start.grid, start.model.reflectance, 1);
+    for (const glm::vec3& normal : scene.normals) {
+        const glm::vec3 wrong = glm::normalize(glm::vec3(slopes * normal.x, slopes * normal.y, normal.z));
+        start.matches.push_back({ballTexelOf(wrong, start.grid.size), 1, 2, -1});
+    }
+    for (int round = 0; round < 3; ++round) {
+        for (size_t p = 0; p < start.matches.size(); ++p) {
+            BallMatch& match = start.matches[p];
+            match = matchAtTexel(start.model, start.lattice, p, match.texel, match.scale);
+        }
+        refitModel(start.lattice, additive, 1, start.model, start.matches);
+    }
+}
+
+double meanError(const ShadedScene& scene, const Start& start)
+{
+    double sum = 0;
+    for (size_t p = 0; p < scene.normals.size(); ++p) {
+        sum += degreesBetween(normalOfBallTexel(start.matches[p].texel, start.grid.size), scene.normals[p]);
+    }
+    return sum / static_cast<double>(scene.normals.size());
+}
+
+} // namespace
+
+TEST(JointRefinement, SlopesAreThoseOfDifferences)
+{
+    const BallGrid grid = makeBallGrid(kBallSize, lightsAround(5), 1);
+    const std::vector<LightPlace> lights = lightPlaces(grid);
+    for (const bool additive : {false, true}) {
+        Reflectance reflectance;
+        reflectance.additive = additive;
+        reflectance.bounced = 0.05f;
+        for (int k = 0; k < kShadeKnots; ++k) {
+            reflectance.shade[k] = 0.03f * static_cast<float>(k); // straight, as the lobe is: no knots between
+        }
+        for (int k = 0; k < kLobeUnknowns; ++k) {
+            reflectance.lobe[k] =
+                0.5f + 0.02f * static_cast<float>(kHalfBins - k / kDifferenceBins + k % kDifferenceBins);
+        }
+        const float unit = 0.1f, bright = 0.7f;
+        const Eigen::VectorXd unknowns = unknownsOf(reflectance, unit);
+        const PixelGuess guess{0, glm::normalize(glm::vec3(0.3f, -0.2f, 0.8f)), -0.4f};
+        const NormalBasis basis = basisOf(guess.normal);
+        const auto rootAt = [&](const Eigen::VectorXd& at, const PixelGuess& where, const LightPlace& light) {
+            return rootSlopes(reflectanceOf(at, unit, reflectance), where, basis, bright, light).root;
+        };
+        for (const LightPlace& light : lights) {
+            const RootSlopes slopes =
+                rootSlopes(reflectanceOf(unknowns, unit, reflectance), guess, basis, bright, light);
+            constexpr float kStep = 2e-3f; // of floats: the difference has three digits
+            const auto difference = [&](const auto& moved) { return (moved(kStep) - moved(-kStep)) / (2 * kStep); };
+            EXPECT_NEAR(slopes.byPixel[0], difference([&](float t) {
+                            return rootAt(unknowns, {0, glm::normalize(guess.normal + t * basis.across), -0.4f}, light);
+                        }),
+                        3e-3f);
+            EXPECT_NEAR(slopes.byPixel[1], difference([&](float t) {
+                            return rootAt(unknowns, {0, glm::normalize(guess.normal + t * basis.along), -0.4f}, light);
+                        }),
+                        3e-3f);
+            EXPECT_NEAR(slopes.byPixel[2], difference([&](float t) {
+                            return rootAt(unknowns, {0, guess.normal, -0.4f + t}, light);
+                        }),
+                        3e-3f);
+            ASSERT_EQ(slopes.count, 6);
+            for (int k = 0; k < slopes.count; ++k) {
+                EXPECT_NEAR(slopes.byUnknown[k], difference([&](float t) {
+                                Eigen::VectorXd at = unknowns;
+                                at[slopes.unknowns[k]] += t;
+                                return rootAt(at, guess, light);
+                            }),
+                            3e-3f)
+                    << k;
+            }
+        }
+    }
+}
+
+// Slopes that are a seventh too steep, and the reflectance that explains them best, are left for the true ones. Fitted
+// in turn they stay: what is left of the error by then is in the reflectance's bins.
+TEST(JointRefinement, FindsSlopesThatTheReflectanceHides)
+{
+    const ShadedScene scene = photograph(26, 26, sphere, varnish);
+    for (const bool additive : {false, true}) {
+        Start start;
+        startWith(scene, 1.15f, additive, start);
+        ASSERT_GT(meanError(scene, start), 3);
+        refineJointly(start.lattice, 2, start.model, start.matches);
+        EXPECT_LT(meanError(scene, start), 0.5) << additive;
+    }
+}
+
+TEST(JointRefinement, DoesNotDependOnThreads)
+{
+    const ShadedScene scene = photograph(24, 24, sphere, varnish);
+    Start one, three;
+    startWith(scene, 1.1f, false, one);
+    startWith(scene, 1.1f, false, three);
+    refineJointly(one.lattice, 1, one.model, one.matches);
+    refineJointly(three.lattice, 3, three.model, three.matches);
+    EXPECT_EQ(one.model.reflectance.lobe, three.model.reflectance.lobe);
+    for (size_t p = 0; p < one.matches.size(); ++p) {
+        EXPECT_EQ(one.matches[p].texel, three.matches[p].texel);
+    }
+}
+
+// A room that sends back three hundredths of the light: known from the pixels that face away.
+TEST(JointRefinement, KnowsLightThatBouncedFromTheRoom)
+{
+    ShadedScene scene = photograph(26, 26, sphere, varnish);
+    for (size_t p = 0; p < scene.normals.size(); ++p) {
+        for (size_t i = 0; i < scene.lights.size(); ++i) {
+            scene.intensities.values[p * scene.intensities.stride + i] += 0.03f * 0.3f;
+        }
+    }
+    Start start;
+    startWith(scene, 1, true, start);
+    EXPECT_NEAR(start.model.reflectance.bounced, 0.03f, 0.006f);
+    refineJointly(start.lattice, 2, start.model, start.matches);
+    EXPECT_LT(meanError(scene, start), 0.5);
+}
+
+} // namespace nacre
