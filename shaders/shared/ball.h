@@ -76,8 +76,8 @@ NACRE_FN vec3 shareInMean(vec3 irradiance, float nDotL)
     return irradiance * max(nDotL, 0.001f);
 }
 
-// A texel of balls that lie side by side, in one number; none where a pixel shows nothing. Its texel is one of a ball all
-// the same, which is read and not shown.
+// A texel of balls that lie side by side, in one number; none where a pixel shows nothing. Its texel is one of a ball
+// all the same, which is read and not shown.
 const uint kNoBallPlace = 0x80000000u;
 
 NACRE_FN uint packedBallPlace(ivec2 texel)
