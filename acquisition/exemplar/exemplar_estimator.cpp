@@ -7,6 +7,7 @@
 #include <utility>
 
 #include <Eigen/Dense>
+#include <glm/geometric.hpp>
 
 #include "engine/files/measures.h"
 #include "engine/files/parallel_for.h"
@@ -75,12 +76,16 @@ NormalBlock judgedBlock(const ExemplarSetup& setup, const PixelLattice& pixels, 
             const std::span<const float> observed = pixels.intensities.ofPixel(p);
             const auto verdicts = std::span(block.verdicts).subspan(p * n, n);
             predictMatch(setup.model.match, matches[p], pixels.bright[p], predicted.data());
+            const glm::vec3 normal = normalOfBallTexel(matches[p].texel, setup.model.grid->size);
+            for (size_t i = 0; i < n; ++i) {
+                // What surroundings alone light lies in shadow.
+                predicted[i] = glm::dot(normal, setup.model.grid->directions[i]) > 0 ? predicted[i] : 0;
+            }
             judge(observed, predicted, verdicts);
             if (matches[p].row < 0 || !(matches[p].scale > 0)) {
                 continue;
             }
             const auto used = std::count(verdicts.begin(), verdicts.end(), Verdict::used);
-            const glm::vec3 normal = normalOfBallTexel(matches[p].texel, setup.model.grid->size);
             // A BRDF is reciprocal: where e^u(n.l) is in it, e^u(n.v) is, too, and not in the albedo.
             const float albedo =
                 matches[p].scale * pixels.bright[p] / std::exp(setup.model.match.reflectance.shadeAt(normal.z));
