@@ -10,6 +10,7 @@
 #include "engine/files/measures.h"
 #include "engine/files/parallel_for.h"
 #include "engine/files/stopwatch.h"
+#include "evaluation/held_out/irradiance_scale.h"
 
 namespace nacre {
 
@@ -31,11 +32,16 @@ double greyPeakOf(const Observations& all)
     return peakOf(values);
 }
 
+bool areIrradiancesGiven(const Capture& capture)
+{
+    return capture.irradianceGiven || capture.diffuseSphere.has_value();
+}
+
 // The irradiances that all photographs together give, where the acquisition may correct them: one that nobody can know
 // from the others says nothing of a method.
 Rig reconciledRig(const Capture& capture, Rig rig, const Observations& all, const AcquireOptions& options)
 {
-    CaptureSample sample{evenSample(all), {}, capture.irradianceGiven || capture.diffuseSphere.has_value(), rig.lights};
+    CaptureSample sample{evenSample(all), {}, areIrradiancesGiven(capture), rig.lights};
     for (const Photograph& photograph : capture.photographs) {
         sample.photographs.push_back(photograph.name);
     }
@@ -60,20 +66,6 @@ std::vector<Light> lightsAsFound(const Surface& surface, const Capture& capture,
     return lights;
 }
 
-// Where nobody gave irradiances, those of two sets of photographs differ by a factor that means nothing.
-glm::vec3 scaleBetween(const std::vector<Light>& from, const std::vector<Light>& to)
-{
-    glm::vec3 scale(1);
-    for (int c = 0; c < 3; ++c) {
-        std::vector<float> ratios;
-        for (size_t i = 0; i < from.size(); ++i) {
-            ratios.push_back(to[i].irradiance[c] / from[i].irradiance[c]);
-        }
-        scale[c] = quantile(ratios, 0.5);
-    }
-    return scale;
-}
-
 // What stands for the given photographs is the same for every method: what the acquisition made of those alone.
 Truth readTruth(const Capture& capture, const Rig& calibrated, const std::vector<size_t>& heldOut,
                 const std::vector<size_t>& given, const Surface& surface, const AcquireOptions& options)
@@ -85,10 +77,7 @@ Truth readTruth(const Capture& capture, const Rig& calibrated, const std::vector
     const std::vector<Light> reconciled = selectLights(rig, given).lights,
                              found = lightsAsFound(surface, capture, given, reconciled);
     std::vector<Light> asked = selectLights(rig, heldOut).lights;
-    const glm::vec3 scale = scaleBetween(reconciled, found);
-    for (Light& light : asked) {
-        light.irradiance *= scale;
-    }
+    (areIrradiancesGiven(capture) ? bringToMedianScale : bringToScale)(reconciled, found, asked);
     return {selectLights(all, heldOut), selectLights(all, given), asked, found, peakOf(all.radiance), greyPeakOf(all)};
 }
 
