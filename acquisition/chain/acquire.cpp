@@ -197,10 +197,13 @@ void judgeSamples(PreparedCapture& prepared, const Capture& capture, const Segme
     MaterialSamples judged = startSamples(capture, lights, segmentation, options.bake);
     judged.counts = result.gathered.counts;
     judged.albedo = std::move(result.gathered.albedo);
+    const std::vector<uint8_t> keepsFactors =
+        takeSlopeTrends(result.estimate.normals, lights, segmentation.labels, tables.size(), judged.albedo);
     BlockWalk walk(prepared.blocks, clock, progress, "samples");
     while (const Observations* seen = walk.next()) {
         forEachDirect(prepared, result.chosen, *seen, options.normals.threads, [&](const Observations& block) {
-            gatherJudgedSamples(block, result.estimate.normals, lights, segmentation, tables, options, judged);
+            gatherJudgedSamples(block, result.estimate.normals, lights, segmentation, tables, keepsFactors, options,
+                                judged);
         });
     }
     result.gathered = std::move(judged);

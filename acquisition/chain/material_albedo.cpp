@@ -1,7 +1,9 @@
 #include "acquisition/chain/material_albedo.h"
 
 #include <algorithm>
+#include <optional>
 
+#include "acquisition/brdf/slope_trend.h"
 #include "acquisition/chain/material_blocks.h"
 #include "acquisition/normals/smooth_fill.h"
 
@@ -31,17 +33,46 @@ glm::vec3 finishOne(const Capture& capture, const std::vector<uint8_t>& object, 
 
 } // namespace
 
+std::vector<uint8_t> takeSlopeTrends(const NormalMap& normals, const LocalLights& lights,
+                                     std::span<const uint8_t> labels, size_t materials, Image& albedo)
+{
+    std::vector<uint8_t> taken(materials);
+    for (size_t m = 0; m < materials; ++m) {
+        std::vector<uint32_t> pixels;
+        std::vector<glm::vec3> factors;
+        std::vector<float> cosines;
+        for (uint32_t i = 0; i < labels.size(); ++i) {
+            if (labels[i] == m && normals.confidence[i] > 0) {
+                pixels.push_back(i);
+                factors.emplace_back(albedo.values[3 * i], albedo.values[3 * i + 1], albedo.values[3 * i + 2]);
+                cosines.push_back(lights.toLocal(i, normals.normals[i]).z);
+            }
+        }
+        const std::optional<SlopeTrend> trend = SlopeTrend::of(factors, cosines);
+        taken[m] = trend.has_value();
+        for (size_t k = 0; k < pixels.size() && trend; ++k) {
+            const glm::vec3 factor = factors[k] / trend->at(cosines[k]);
+            std::copy_n(&factor.x, 3, &albedo.values[3 * size_t{pixels[k]}]);
+        }
+    }
+    return taken;
+}
+
 void refitAlbedo(const Observations& block, const NormalMap& normals, const LocalLights& lights,
                  std::span<const uint8_t> labels, std::span<BrdfTable* const> tables, int threads, Image& albedo)
 {
-    if (tables.size() == 1) {
+    if (tables.size() == 1 && tables[0]) {
         refitAlbedo(block, normals, lights, *tables[0], threads, albedo);
+    }
+    if (tables.size() == 1) {
         return;
     }
     forEachMaterial(
         block, {}, {}, tables.size(), [&](uint32_t pixel) -> size_t { return labels[pixel]; },
         [&](size_t material, const BlockPart& part) {
-            refitAlbedo(part.seen, normals, lights, *tables[material], threads, albedo);
+            if (tables[material]) {
+                refitAlbedo(part.seen, normals, lights, *tables[material], threads, albedo);
+            }
         });
 }
 

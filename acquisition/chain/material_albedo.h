@@ -9,7 +9,13 @@
 
 namespace nacre {
 
-// refitAlbedo of albedo_factor.h with every pixel's own material; labels are indices into `tables`.
+// Takes out of each material's factors what goes with the slope (slope_trend.h). Answers, for each of so many
+// materials, whether something did.
+std::vector<uint8_t> takeSlopeTrends(const NormalMap& normals, const LocalLights& lights,
+                                     std::span<const uint8_t> labels, size_t materials, Image& albedo);
+
+// refitAlbedo of albedo_factor.h with every pixel's own material; labels are indices into `tables`, null where a
+// material's factors stay as they are.
 void refitAlbedo(const Observations& block, const NormalMap& normals, const LocalLights& lights,
                  std::span<const uint8_t> labels, std::span<BrdfTable* const> tables, int threads, Image& albedo);
 

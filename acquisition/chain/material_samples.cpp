@@ -57,9 +57,14 @@ void gatherSamples(const Observations& block, const NormalBlock& normals, const 
 
 void gatherJudgedSamples(const Observations& block, const NormalMap& normals, const LocalLights& lights,
                          const Segmentation& segmentation, std::span<BrdfTable* const> tables,
-                         const AcquireOptions& options, MaterialSamples& gathered)
+                         std::span<const uint8_t> keepsFactors, const AcquireOptions& options,
+                         MaterialSamples& gathered)
 {
-    refitAlbedo(block, normals, lights, segmentation.labels, tables, options.samples.threads, gathered.albedo);
+    std::vector<BrdfTable*> fitted(tables.begin(), tables.end());
+    for (size_t m = 0; m < fitted.size(); ++m) {
+        fitted[m] = keepsFactors[m] ? nullptr : fitted[m];
+    }
+    refitAlbedo(block, normals, lights, segmentation.labels, fitted, options.samples.threads, gathered.albedo);
     const auto take = [&](size_t material, const BlockPart& part) {
         const double share = sampledShare(segmentation.regions[material], block.lightCount, options.samples);
         gatherJudgedSamples(part.seen, normals, gathered.albedo, lights, *tables[material], share, options.samples,
