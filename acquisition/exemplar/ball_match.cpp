@@ -197,6 +197,15 @@ void equationsAt(const BallCell& cell, bool additive, const float* observed, siz
     equations.cost = sumOf(costs);
 }
 
+// A step changes scales by a factor of two at most.
+float steppedScale(const AlbedoRange& albedos, float inverseBright, float scale, float change)
+{
+    const float low = albedos.low * inverseBright, high = albedos.high * inverseBright;
+    return albedos.low == albedos.high
+               ? low
+               : std::clamp(scale + change, std::max(low, 0.5f * scale), std::min(high, 2 * scale));
+}
+
 StepEquations equationsAt(const MatchModel& model, const PixelLattice& lattice, size_t pixel, const BallCell& cell,
                           float scale)
 {
@@ -252,6 +261,10 @@ BallMatch polishedMatch(const MatchModel& model, const PixelLattice& lattice, si
         if (current.cost < best.cost) {
             best = current;
         }
+        if (model.albedos.low == model.albedos.high) {
+            equations.matrix.row(2) << 0, 0, 1;
+            equations.matrix.col(2) << 0, 0, 1;
+        }
         // Damped by a thousandth, so that a direction that no observation tells stays where it is.
         equations.matrix.diagonal() *= 1.001f;
         equations.matrix.diagonal().array() += 1e-9f;
@@ -262,9 +275,7 @@ BallMatch polishedMatch(const MatchModel& model, const PixelLattice& lattice, si
         glm::vec2 moved = current.texel + glm::vec2(change.x(), change.y()) - match.texel;
         moved /= std::max(1.0f, glm::length(moved));
         current.texel = match.texel + moved;
-        current.scale =
-            std::clamp(current.scale + change.z(), std::max(model.albedos.low * inverseBright, 0.5f * current.scale),
-                       std::min(model.albedos.high * inverseBright, 2 * current.scale));
+        current.scale = steppedScale(model.albedos, inverseBright, current.scale, change.z());
     }
     if (best.cost > 1) {
         return match;
@@ -289,9 +300,8 @@ BallMatch matchAtTexel(const MatchModel& model, const PixelLattice& lattice, siz
         const StepEquations equations = equationsAt(model, lattice, pixel, *cell, match.scale);
         match.cost = equations.cost;
         if (step < kPolishSteps && equations.matrix(2, 2) > 0) {
-            match.scale = std::clamp(match.scale + equations.right.z() / equations.matrix(2, 2),
-                                     std::max(model.albedos.low * inverseBright, 0.5f * match.scale),
-                                     std::min(model.albedos.high * inverseBright, 2 * match.scale));
+            match.scale =
+                steppedScale(model.albedos, inverseBright, match.scale, equations.right.z() / equations.matrix(2, 2));
         }
     }
     return match;

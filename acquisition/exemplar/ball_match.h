@@ -21,7 +21,7 @@ struct BallMatch {
 // The albedos that the object has, on the scale of its intensities.
 struct AlbedoRange {
     float low = 0;
-    float high = 1e30f;
+    float high = 1e30f; // low: all pixels have this one
 };
 
 // Residuals of roots are truncated at least here: 16 % of the brightness at the pixel's bright level, which

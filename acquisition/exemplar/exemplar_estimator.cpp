@@ -87,8 +87,10 @@ NormalBlock judgedBlock(const ExemplarSetup& setup, const PixelLattice& pixels, 
             }
             const auto used = std::count(verdicts.begin(), verdicts.end(), Verdict::used);
             // A BRDF is reciprocal: where e^u(n.l) is in it, e^u(n.v) is, too, and not in the albedo.
-            const float albedo =
-                matches[p].scale * pixels.bright[p] / std::exp(setup.model.match.reflectance.shadeAt(normal.z));
+            const Reflectance& reflectance = setup.model.match.reflectance;
+            const float albedo = reflectance.oneAlbedo
+                                     ? *reflectance.oneAlbedo
+                                     : matches[p].scale * pixels.bright[p] / std::exp(reflectance.shadeAt(normal.z));
             block.pixels[p] = {normal, albedo, confidenceOf(observed, predicted, verdicts, setup.lights),
                                static_cast<uint16_t>(used)};
         }

@@ -37,6 +37,10 @@ constexpr int kFarStep = 8;
 constexpr float kLeastGrazing = 0.03f, kMostGrazing = 0.12f;
 constexpr size_t kMostGrazed = 1000, kFewestGrazed = 100;
 constexpr float kUnlitShare = 0.5f;
+// Of one albedo: objects whose pixels differ by more in the median are painted.
+constexpr size_t kFewestOfOneAlbedo = 6;
+constexpr float kMostAlbedoSpread = 0.2f;
+constexpr double kOneAlbedoMargin = 1.05;
 
 struct CoarserLevel {
     PixelLattice lattice;
@@ -108,6 +112,60 @@ bool endsBeforeTheHorizon(const PixelLattice& lattice, const MatchModel& model, 
     return shares.size() >= kFewestGrazed && quantile(shares, 0.5) < kUnlitShare;
 }
 
+// Over e^u(n.v), which belongs to the reflectance.
+std::vector<float> albedosOf(const PixelLattice& lattice, const MatchModel& model,
+                             const std::vector<BallMatch>& matches)
+{
+    std::vector<float> albedos;
+    for (size_t p = 0; p < matches.size(); ++p) {
+        const float nDotV = normalOfBallTexel(matches[p].texel, model.ball.grid->size).z;
+        albedos.push_back(matches[p].scale * lattice.bright[p] / std::exp(model.reflectance.shadeAt(nDotV)));
+    }
+    return albedos;
+}
+
+// The median share by which albedos depart from their median.
+float spreadOf(std::vector<float> albedos)
+{
+    const float middle = quantile(albedos, 0.5);
+    for (float& albedo : albedos) {
+        albedo = std::abs(albedo / middle - 1);
+    }
+    return quantile(albedos, 0.5);
+}
+
+// Normals and reflectance at once where all pixels have one albedo, and slopes explain what brightness they differ by.
+// A factor a pixel has one unknown more to n lights, so that residuals are smaller by sqrt((n - 3) / (n - 2)) even if
+// there is no paint; what costs no more than that and a margin is kept. Answers the matches' median cost.
+float refineWithOneAlbedo(const PixelLattice& lattice, int threads, MatchModel& model, std::vector<BallMatch>& matches)
+{
+    MatchModel tried = model;
+    std::vector<BallMatch> moved = matches;
+    if (model.reflectance.additive) {
+        refitModel(lattice, false, threads, tried, moved);
+    }
+    std::vector<float> albedos = albedosOf(lattice, tried, moved);
+    const float albedo = quantile(albedos, 0.5);
+    if (lattice.lightCount < kFewestOfOneAlbedo || !(albedo > 0) || spreadOf(albedos) > kMostAlbedoSpread) {
+        return medianCost(matches);
+    }
+    tried.reflectance.oneAlbedo = albedo;
+    tried.reflectance.slant = tried.reflectance.shade; // as if reciprocal
+    tried.albedos = {albedo, albedo};
+    refineJointly(lattice, threads, tried, moved);
+    for (size_t p = 0; p < moved.size(); ++p) {
+        moved[p].scale = albedo / lattice.bright[p];
+    }
+    sweepMatches(tried, lattice, kNarrowSteps, {}, threads, moved);
+    polishMatches(tried, lattice, threads, moved);
+    const double lights = static_cast<double>(lattice.lightCount);
+    if (meanCost(moved) < kOneAlbedoMargin * std::sqrt((lights - 2) / (lights - 3)) * meanCost(matches)) {
+        model = std::move(tried);
+        matches = std::move(moved);
+    }
+    return medianCost(matches);
+}
+
 // Normals and reflectance at once, gloss scaled by the albedo and not: of both, and of what is there, what explains the
 // observations best. Slopes hang on where light ends, at n.l = 0: all stays as it is where that cannot be seen. Answers
 // the matches' median cost.
@@ -136,7 +194,7 @@ float refineBothForms(const PixelLattice& lattice, int threads, MatchModel& mode
     }
     model = std::move(best);
     matches = std::move(bestMatches);
-    return medianCost(matches);
+    return refineWithOneAlbedo(lattice, threads, model, matches);
 }
 
 // The hypothesis that predicts held-out lights best; without a jury the one of least cost.

@@ -29,7 +29,7 @@ constexpr float kWeightLimit = 1.5f;
 // A step turns no normal by more than three degrees, and no albedo by more than a half.
 constexpr double kMostTurn = 0.05, kMostScaling = 0.5;
 constexpr float kLeastZ = 0.02f;
-// Curvature of T along thetaH and of u, slope of T along thetaD: what a few observations of a texel outweigh.
+// Curvature of T along thetaH, of u and v, slope of T along thetaD: what a few observations of a texel outweigh.
 constexpr double kLobePrior = 0.5, kShadePrior = 150;
 constexpr double kAnchorPrior = 1e3, kStayPrior = 1e-6;
 constexpr float kAsinhUnit = 0.1f; // of the median albedo
@@ -69,10 +69,12 @@ template <class Row> void eachPriorRow(const Row& row)
         }
         row(kStayPrior, Terms{{k, 1}});
     }
-    for (int k = kLobeUnknowns + 1; k + 1 < kReflectanceUnknowns; ++k) {
-        row(kShadePrior, Terms{{k - 1, 1}, {k, -2}, {k + 1, 1}});
+    for (const int first : {kShadeUnknowns, kSlantUnknowns}) {
+        for (int k = first + 1; k + 1 < first + kShadeKnots; ++k) {
+            row(kShadePrior, Terms{{k - 1, 1}, {k, -2}, {k + 1, 1}});
+        }
+        row(kAnchorPrior, Terms{{first + 12, 0.2}, {first + 13, 0.8}}); // u = 0 at n.l = 0.8, v at n.v
     }
-    row(kAnchorPrior, Terms{{kLobeUnknowns + 12, 0.2}, {kLobeUnknowns + 13, 0.8}}); // u = 0 at n.l = 0.8
 }
 
 double priorCost(const Eigen::VectorXd& unknowns)
@@ -274,10 +276,11 @@ void refineJointly(const PixelLattice& lattice, int threads, MatchModel& model, 
         match.texel = ballTexelOf(guess.normal, grid.size);
         match.scale *= scalings.back();
     }
-    // T and the albedos share a factor, which may have moved.
-    const float scaling = quantile(scalings, 0.5);
-    model.albedos.low *= scaling;
-    model.albedos.high *= scaling;
+    if (!like.oneAlbedo) { // T and the albedos share a factor, which may have moved
+        const float scaling = quantile(scalings, 0.5);
+        model.albedos.low *= scaling;
+        model.albedos.high *= scaling;
+    }
     model.ball = makeReflectanceBall(grid, model.reflectance, threads);
     forgetCosts(matches);
 }

@@ -94,14 +94,24 @@ void addFits(const std::string& family, const std::vector<NamedBrdf>& fits, cons
     }
 }
 
-} // namespace
-
-float Reflectance::shadeAt(float cosine) const
+float atCosine(const std::array<float, kShadeKnots>& knots, float cosine)
 {
     const float place = std::clamp(cosine, 0.0f, 1.0f) * (kShadeKnots - 1);
     const int knot = std::min(static_cast<int>(place), kShadeKnots - 2);
     const float share = place - static_cast<float>(knot);
-    return shade[knot] * (1 - share) + shade[knot + 1] * share;
+    return knots[knot] * (1 - share) + knots[knot + 1] * share;
+}
+
+} // namespace
+
+float Reflectance::shadeAt(float cosine) const
+{
+    return atCosine(shade, cosine);
+}
+
+float Reflectance::slantAt(float cosine) const
+{
+    return atCosine(slant, cosine);
 }
 
 std::array<float, kShadeKnots> shadeOfPower(float exponent)
@@ -145,12 +155,14 @@ ReflectanceBall makeReflectanceBall(const BallGrid& grid, const Reflectance& ref
     parallelFor(grid.normals.size(), kBallRowsPerTask, threads, [&](size_t first, size_t last) {
         std::vector<float> values;
         for (size_t row = first; row < last; ++row) {
+            const float slanted = std::exp(reflectance.slantAt(grid.normals[row].z)),
+                        bounced = slanted * reflectance.bounced;
             for (size_t i = 0; i < grid.lightCount; ++i) {
                 const size_t at = row * grid.stride + i;
                 const float cosine = grid.cosines[at];
-                ball.diffuse[at] = reflectance.bounced;
+                ball.diffuse[at] = bounced;
                 if (!reflectance.additive) {
-                    ball.roots[at] = std::sqrt(reflectance.bounced);
+                    ball.roots[at] = std::sqrt(bounced);
                 }
                 if (cosine <= 0) {
                     continue;
@@ -159,7 +171,7 @@ ReflectanceBall makeReflectanceBall(const BallGrid& grid, const Reflectance& ref
                 const float share = grid.halfBins[at] - static_cast<float>(bin);
                 const float* profile = &profiles[i * kHalfBins + bin];
                 const float lobe = (profile[0] * (1 - share) + profile[1] * share) * cosine;
-                ball.diffuse[at] += shades[at] * (reflectance.additive ? cosine : lobe);
+                ball.diffuse[at] += slanted * shades[at] * (reflectance.additive ? cosine : lobe);
                 if (reflectance.additive) {
                     ball.gloss[at] = lobe;
                 } else {

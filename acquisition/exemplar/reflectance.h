@@ -2,6 +2,7 @@
 #include <array>
 #include <filesystem>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,14 +19,18 @@ constexpr int kShadeKnots = 17; // n.l = 0, 1/16, ... 1
 //   a (T(thetaH, thetaD) e^u(n.l) n.l + b)       where gloss is scaled by the albedo, or
 //   a (e^u(n.l) n.l + b) + T(thetaH, thetaD) n.l where gloss is common to the object (additive), whatever the albedo.
 // u is how the diffuse part departs from Lambert's law: 0 is none. b is light that reaches the pixel by way of its
-// surroundings, wherever the lamp stands: 0 is none.
+// surroundings, wherever the lamp stands: 0 is none. Where all pixels have one albedo, a e^v(n.v) stands for a; v is 0
+// elsewhere, since albedos take it.
 struct Reflectance {
     bool additive = false;
     std::array<float, kShadeKnots> shade{};                                          // u
     float bounced = 0;                                                               // b
+    std::optional<float> oneAlbedo;                                                  // a, where all pixels have it
+    std::array<float, kShadeKnots> slant{};                                          // v
     std::vector<float> lobe = std::vector<float>(kHalfBins * kDifferenceBins, 1.0f); // T [half * bins + difference]
 
     float shadeAt(float cosine) const;
+    float slantAt(float cosine) const;
 };
 
 // The least that additive gloss leaves of the diffuse part, where the measured one is negative.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <glm/geometric.hpp>
 
@@ -56,54 +57,9 @@ LobeAt lobeAt(const std::vector<float>& lobe, const LightPlace& light, float cos
     return at;
 }
 
-} // namespace
-
-Eigen::VectorXd unknownsOf(const Reflectance& reflectance, float unit)
-{
-    Eigen::VectorXd unknowns(kReflectanceUnknowns);
-    for (int k = 0; k < kLobeUnknowns; ++k) {
-        const double value = reflectance.lobe[k];
-        unknowns[k] = reflectance.additive ? std::asinh(value / unit) : std::log(std::max(value, kLeastLobe));
-    }
-    for (int k = 0; k < kShadeKnots; ++k) {
-        unknowns[kLobeUnknowns + k] = reflectance.shade[k];
-    }
-    return unknowns;
-}
-
-SlopedReflectance reflectanceOf(const Eigen::VectorXd& unknowns, float unit, const Reflectance& like)
-{
-    SlopedReflectance result{like, std::vector<float>(kLobeUnknowns)};
-    for (int k = 0; k < kLobeUnknowns; ++k) {
-        const double z = unknowns[k];
-        result.reflectance.lobe[k] = static_cast<float>(like.additive ? unit * std::sinh(z) : std::exp(z));
-        result.lobeSlopes[k] = static_cast<float>(like.additive ? unit * std::cosh(z) : std::exp(z));
-    }
-    for (int k = 0; k < kShadeKnots; ++k) {
-        result.reflectance.shade[k] = static_cast<float>(unknowns[kLobeUnknowns + k]);
-    }
-    return result;
-}
-
-NormalBasis basisOf(const glm::vec3& normal)
-{
-    const glm::vec3 aside = std::abs(normal.x) < 0.7f ? glm::vec3(1, 0, 0) : glm::vec3(0, 1, 0);
-    const glm::vec3 across = glm::normalize(glm::cross(aside, normal));
-    return {across, glm::cross(normal, across)};
-}
-
-std::vector<LightPlace> lightPlaces(const BallGrid& grid)
-{
-    std::vector<LightPlace> places;
-    for (size_t i = 0; i < grid.lightCount; ++i) {
-        const Between at = between(differenceBinOf(grid.halves[i].z, grid.largestThetaD) - 0.5f, kDifferenceBins);
-        places.push_back({grid.directions[i], grid.halves[i], at.knot, at.share});
-    }
-    return places;
-}
-
-RootSlopes rootSlopes(const SlopedReflectance& sloped, const PixelGuess& guess, const NormalBasis& basis, float bright,
-                      const LightPlace& light)
+// With an albedo of the pixel's own.
+RootSlopes ownSlopes(const SlopedReflectance& sloped, const PixelGuess& guess, const NormalBasis& basis, float bright,
+                     const LightPlace& light)
 {
     const Reflectance& reflectance = sloped.reflectance;
     const float cosine = glm::dot(guess.normal, light.direction), scale = std::exp(guess.logScale);
@@ -146,11 +102,84 @@ RootSlopes rootSlopes(const SlopedReflectance& sloped, const PixelGuess& guess, 
         result.unknowns[k] = lobe.texels[k];
         result.byUnknown[k] = half * byLobe * lobe.weights[k] * sloped.lobeSlopes[lobe.texels[k]];
     }
-    result.unknowns[4] = kLobeUnknowns + knot.knot;
+    result.unknowns[4] = kShadeUnknowns + knot.knot;
     result.byUnknown[4] = half * byShade * (1 - knot.share);
-    result.unknowns[5] = kLobeUnknowns + knot.knot + 1;
+    result.unknowns[5] = kShadeUnknowns + knot.knot + 1;
     result.byUnknown[5] = half * byShade * knot.share;
     result.count = 6;
+    return result;
+}
+
+} // namespace
+
+Eigen::VectorXd unknownsOf(const Reflectance& reflectance, float unit)
+{
+    Eigen::VectorXd unknowns(kReflectanceUnknowns);
+    for (int k = 0; k < kLobeUnknowns; ++k) {
+        const double value = reflectance.lobe[k];
+        unknowns[k] = reflectance.additive ? std::asinh(value / unit) : std::log(std::max(value, kLeastLobe));
+    }
+    for (int k = 0; k < kShadeKnots; ++k) {
+        unknowns[kShadeUnknowns + k] = reflectance.shade[k];
+        unknowns[kSlantUnknowns + k] = reflectance.slant[k];
+    }
+    return unknowns;
+}
+
+SlopedReflectance reflectanceOf(const Eigen::VectorXd& unknowns, float unit, const Reflectance& like)
+{
+    SlopedReflectance result{like, std::vector<float>(kLobeUnknowns)};
+    for (int k = 0; k < kLobeUnknowns; ++k) {
+        const double z = unknowns[k];
+        result.reflectance.lobe[k] = static_cast<float>(like.additive ? unit * std::sinh(z) : std::exp(z));
+        result.lobeSlopes[k] = static_cast<float>(like.additive ? unit * std::cosh(z) : std::exp(z));
+    }
+    for (int k = 0; k < kShadeKnots; ++k) {
+        result.reflectance.shade[k] = static_cast<float>(unknowns[kShadeUnknowns + k]);
+        result.reflectance.slant[k] = static_cast<float>(unknowns[kSlantUnknowns + k]);
+    }
+    return result;
+}
+
+NormalBasis basisOf(const glm::vec3& normal)
+{
+    const glm::vec3 aside = std::abs(normal.x) < 0.7f ? glm::vec3(1, 0, 0) : glm::vec3(0, 1, 0);
+    const glm::vec3 across = glm::normalize(glm::cross(aside, normal));
+    return {across, glm::cross(normal, across)};
+}
+
+std::vector<LightPlace> lightPlaces(const BallGrid& grid)
+{
+    std::vector<LightPlace> places;
+    for (size_t i = 0; i < grid.lightCount; ++i) {
+        const Between at = between(differenceBinOf(grid.halves[i].z, grid.largestThetaD) - 0.5f, kDifferenceBins);
+        places.push_back({grid.directions[i], grid.halves[i], at.knot, at.share});
+    }
+    return places;
+}
+
+RootSlopes rootSlopes(const SlopedReflectance& sloped, const PixelGuess& guess, const NormalBasis& basis, float bright,
+                      const LightPlace& light)
+{
+    const Reflectance& reflectance = sloped.reflectance;
+    if (!reflectance.oneAlbedo) {
+        return ownSlopes(sloped, guess, basis, bright, light);
+    }
+    // log scale = log a - log bright + v(n.v): what depended on it does so by the normal and by v's two knots.
+    const float nDotV = guess.normal.z;
+    const PixelGuess scaled{guess.pixel, guess.normal,
+                            std::log(*reflectance.oneAlbedo / bright) + reflectance.slantAt(nDotV)};
+    RootSlopes result = ownSlopes(sloped, scaled, basis, bright, light);
+    const float byScale = std::exchange(result.byPixel[2], 0.0f);
+    const Between knot = between(nDotV * (kShadeKnots - 1), kShadeKnots);
+    const float slope = (reflectance.slant[knot.knot + 1] - reflectance.slant[knot.knot]) * (kShadeKnots - 1);
+    result.byPixel[0] += byScale * slope * basis.across.z;
+    result.byPixel[1] += byScale * slope * basis.along.z;
+    for (int k = 0; k < 2; ++k) {
+        result.unknowns[result.count] = kSlantUnknowns + knot.knot + k;
+        result.byUnknown[result.count] = byScale * (k == 0 ? 1 - knot.share : knot.share);
+        ++result.count;
+    }
     return result;
 }
 

@@ -10,9 +10,11 @@
 namespace nacre {
 
 // The numbers that make a reflectance: T by its logarithm, or where gloss is additive, and may be negative, by
-// asinh(T / unit); then u.
+// asinh(T / unit); then u, then v.
 constexpr int kLobeUnknowns = kHalfBins * kDifferenceBins;
-constexpr int kReflectanceUnknowns = kLobeUnknowns + kShadeKnots;
+constexpr int kShadeUnknowns = kLobeUnknowns; // the first of u
+constexpr int kSlantUnknowns = kShadeUnknowns + kShadeKnots;
+constexpr int kReflectanceUnknowns = kSlantUnknowns + kShadeKnots;
 
 Eigen::VectorXd unknownsOf(const Reflectance& reflectance, float unit);
 
@@ -47,12 +49,13 @@ struct LightPlace {
 std::vector<LightPlace> lightPlaces(const BallGrid& grid);
 
 // The root of what a pixel shows of a light, over its bright level, and its derivatives: by steps of the normal across
-// and along its basis, by logScale, and by the few unknowns that it depends on.
+// and along its basis, by logScale, and by the few unknowns that it depends on. Where all pixels have one albedo,
+// logScale is nothing that a pixel may choose, and its derivative 0.
 struct RootSlopes {
     float root = 0;
     std::array<float, 3> byPixel{};
-    std::array<int, 6> unknowns{};
-    std::array<float, 6> byUnknown{};
+    std::array<int, 8> unknowns{};
+    std::array<float, 8> byUnknown{};
     int count = 0; // of the unknowns
 };
 RootSlopes rootSlopes(const SlopedReflectance& sloped, const PixelGuess& guess, const NormalBasis& basis, float bright,

@@ -61,12 +61,17 @@ TEST(JointRefinement, SlopesAreThoseOfDifferences)
 {
     const BallGrid grid = makeBallGrid(kBallSize, lightsAround(5), 1);
     const std::vector<LightPlace> lights = lightPlaces(grid);
-    for (const bool additive : {false, true}) {
+    enum class Form { gloss, additiveGloss, oneAlbedo };
+    for (const Form form : {Form::gloss, Form::additiveGloss, Form::oneAlbedo}) {
         Reflectance reflectance;
-        reflectance.additive = additive;
+        reflectance.additive = form == Form::additiveGloss;
         reflectance.bounced = 0.05f;
+        if (form == Form::oneAlbedo) {
+            reflectance.oneAlbedo = 0.4f;
+        }
         for (int k = 0; k < kShadeKnots; ++k) {
             reflectance.shade[k] = 0.03f * static_cast<float>(k); // straight, as the lobe is: no knots between
+            reflectance.slant[k] = form == Form::oneAlbedo ? 0.05f * static_cast<float>(k) : 0.0f;
         }
         for (int k = 0; k < kLobeUnknowns; ++k) {
             reflectance.lobe[k] =
@@ -96,7 +101,7 @@ TEST(JointRefinement, SlopesAreThoseOfDifferences)
                             return rootAt(unknowns, {0, guess.normal, -0.4f + t}, light);
                         }),
                         3e-3f);
-            ASSERT_EQ(slopes.count, 6);
+            ASSERT_EQ(slopes.count, form == Form::oneAlbedo ? 8 : 6);
             for (int k = 0; k < slopes.count; ++k) {
                 EXPECT_NEAR(slopes.byUnknown[k], difference([&](float t) {
                                 Eigen::VectorXd at = unknowns;
@@ -122,6 +127,24 @@ TEST(JointRefinement, FindsSlopesThatTheReflectanceHides)
         refineJointly(start.lattice, 2, start.model, start.matches);
         EXPECT_LT(meanError(scene, start), 0.5) << additive;
     }
+}
+
+// Where all pixels have one albedo, brightness tells of slopes, even by a law that is not reciprocal.
+TEST(JointRefinement, OneAlbedoFindsSlopesAndHowTheyDarkenFromAside)
+{
+    const ShadedScene scene = photograph(26, 26, sphere, [](size_t p, const glm::vec3& n, const glm::vec3& l) {
+        return std::exp(0.8f * (n.z - 0.8f)) * varnish(p, n, l);
+    });
+    Start start;
+    startWith(scene, 1.15f, false, start);
+    std::vector<float> albedos;
+    for (size_t p = 0; p < start.matches.size(); ++p) {
+        albedos.push_back(start.matches[p].scale * start.lattice.bright[p]);
+    }
+    start.model.reflectance.oneAlbedo = quantile(albedos, 0.5);
+    refineJointly(start.lattice, 2, start.model, start.matches);
+    EXPECT_LT(meanError(scene, start), 0.3);
+    EXPECT_NEAR(start.model.reflectance.slantAt(0.95f) - start.model.reflectance.slantAt(0.55f), 0.8f * 0.4f, 0.03f);
 }
 
 TEST(JointRefinement, DoesNotDependOnThreads)
