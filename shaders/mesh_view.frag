@@ -1,10 +1,13 @@
 #version 460
-// What a distant camera sees of a mesh: the normal's x and y (z is above 0), the height in pixels, the part's label + 1.
+// What a distant camera sees of a mesh: the normal's x and y (z is above 0), the height in pixels, the part's label + 1;
+// or the normal alone, packed.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
+#include "shared/ball.h"
 #include "shared/mesh_layout.h"
 
 layout(constant_id = kConstantMeshMapped) const bool kMapped = false;
+layout(constant_id = kConstantMeshPacked) const bool kPacked = false;
 
 layout(binding = kBindingMeshNormalMap) uniform sampler2D normalMap;
 layout(scalar, push_constant) uniform Constants
@@ -54,5 +57,5 @@ void main()
     // A sheet that is seen from behind, or normals that point inwards.
     n = dot(shadingNormal, facing) < 0.0 ? -n : n;
     n = dot(n, n) > 0.0 ? normalInSight(normalize(n)) : facing;
-    seen = vec4(n.xy, height, constants.label);
+    seen = kPacked ? vec4(packedFromNormal(n), 0.0, 0.0) : vec4(n.xy, height, constants.label);
 }

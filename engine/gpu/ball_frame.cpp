@@ -35,14 +35,16 @@ BallFrame::BallFrame(const Context& context)
 void BallFrame::reset()
 {
     dropPixels();
+    places_ = {};
     target_.reset();
 }
 
 void BallFrame::recordPlaces(VkCommandBuffer commands, const PixelTextures& pixels, const Layout& layout)
 {
-    if (places_.bytes() > 0 && layout == layout_) {
+    if (!placesAreStale_ && layout == layout_) {
         return;
     }
+    placesAreStale_ = false;
     const VkExtent3D picture = pixels.normals.extent();
     if (places_.bytes() == 0) {
         places_ = makeTarget(context_, {(picture.width + kPixelsPerTexel - 1) / kPixelsPerTexel, picture.height, 1},

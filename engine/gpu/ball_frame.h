@@ -19,7 +19,7 @@ public:
     };
 
     // Drops what was made of other pixels.
-    void dropPixels() { places_ = {}; }
+    void dropPixels() { placesAreStale_ = true; }
     // Drops what was made for a picture of another size.
     void reset();
     // `codes` has kCodeFormat and the size of `pixels`, which are the same from one dropPixels to the next; it is in
@@ -45,6 +45,7 @@ private:
     FoursTarget target_;
     Texture places_; // kPixelsPerTexel side by side in a texel
     Layout layout_;  // of places_
+    bool placesAreStale_ = true;
 };
 
 } // namespace nacre

@@ -1,6 +1,7 @@
 #include "engine/gpu/canvas.h"
 
 #include <cstring>
+#include <utility>
 
 namespace nacre {
 
@@ -22,21 +23,30 @@ void Canvas::dropPicture()
 const PixelTextures& Canvas::pixels(const Surface& surface, bool plain)
 {
     if (!pixels_) {
-        pixels_ = uploadPixels(context_, surface, plain, Precision::compact);
+        pixels_ = std::make_shared<PixelTextures>(uploadPixels(context_, surface, plain, Precision::compact));
     }
     return *pixels_;
 }
 
-void Canvas::draw(Draws draws, const Surface& surface,
-                  const std::function<void(VkCommandBuffer, const Texture&)>& record)
+void Canvas::usePixels(std::shared_ptr<const PixelTextures> pixels)
 {
-    const VkExtent2D extent{static_cast<uint32_t>(surface.normals.width),
-                            static_cast<uint32_t>(surface.normals.height)};
+    const VkExtent3D extent = pixels->normals.extent();
+    if (codes_ && (codes_->extent().width != extent.width || codes_->extent().height != extent.height)) {
+        dropPicture();
+    }
+    dropPixels();
+    pixels_ = std::move(pixels);
+}
+
+void Canvas::draw(Draws draws, const std::function<void(VkCommandBuffer, const Texture&)>& record)
+{
+    const VkExtent3D extent = pixels_->normals.extent();
     const bool isNew = !codes_;
     if (isNew) {
-        codes_ = makeTarget(context_, {extent.width, extent.height, 1}, kCodeFormat);
+        codes_ = makeTarget(context_, extent, kCodeFormat);
     }
-    const VkRect2D part = draws == Draws::whatIsShown ? pixels_->shown : VkRect2D{.offset = {}, .extent = extent};
+    const VkRect2D part =
+        draws == Draws::whatIsShown ? pixels_->shown : VkRect2D{.offset = {}, .extent = {extent.width, extent.height}};
     const bool isBlackBeside = !isNew && std::memcmp(&part, &drawn_, sizeof part) == 0;
     drawn_ = part;
     context_.run([&](VkCommandBuffer commands) {

@@ -1,5 +1,6 @@
 #pragma once
 #include <functional>
+#include <memory>
 #include <optional>
 
 #include "engine/gpu/ball_frame.h"
@@ -20,11 +21,12 @@ public:
     void dropPixels();
     void dropPicture();
     const PixelTextures& pixels(const Surface& surface, bool plain);
+    // In place of a surface's own, until pixels are dropped: compact ones that are on the device already.
+    void usePixels(std::shared_ptr<const PixelTextures> pixels);
     const Texture& codes() const { return *codes_; } // once they were drawn
-    // Codes, into a target in kDrawnTo that is in kCopiedFrom afterwards.
+    // Codes of the pixels, into a target in kDrawnTo that is in kCopiedFrom afterwards.
     enum class Draws { everything, whatIsShown }; // and leaves pixels beside what is shown black
-    void draw(Draws draws, const Surface& surface,
-              const std::function<void(VkCommandBuffer, const Texture& codes)>& record);
+    void draw(Draws draws, const std::function<void(VkCommandBuffer, const Texture& codes)>& record);
     // Pixels that may be other than black.
     const VkRect2D& drawn() const { return drawn_; }
 
@@ -36,8 +38,8 @@ public:
 
 private:
     const Context& context_;
-    std::optional<PixelTextures> pixels_; // compact
-    std::optional<Texture> codes_;        // kCodeFormat
+    std::shared_ptr<const PixelTextures> pixels_; // compact
+    std::optional<Texture> codes_;                // kCodeFormat
     VkRect2D drawn_{};
 };
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -30,25 +31,33 @@ bool dependsOnDisplay(Show show)
 
 Renderer::Renderer(const Context& context, VkDeviceSize cacheBytes)
     : context_(context), direct_(context), residualPass_(context), balls_(context, direct_, cacheBytes),
-      cacheBytes_(cacheBytes), own_(context, direct_), exposureFrame_(context, direct_), falseColours_(context),
+      cacheBytes_(cacheBytes), own_(context, direct_), device_(context, direct_),
+      exposureFrame_(context, direct_), falseColours_(context),
       nearer_(context, direct_), zoomFrame_(context)
 {
 }
 
 void Renderer::pictureHasChanged()
 {
-    own_.isStale = nearer_.isStale = true;
+    own_.isStale = nearer_.isStale = device_.isStale = true;
 }
 
 // What was made of the surface's pixels.
 void Renderer::dropPixels()
 {
+    dropDevicePixels();
     own_.dropPixels();
     nearer_.dropPixels();
     magnified_.reset();
     zoomIsStale_ = true;
     exposurePixels_.reset();
     exposureFrame_.reset();
+}
+
+void Renderer::dropDevicePixels()
+{
+    device_.dropPixels();
+    hasDevicePixels_ = false;
 }
 
 void Renderer::setSurface(Surface surface, std::vector<BallSize> sizes)
@@ -86,6 +95,17 @@ void Renderer::setPixels(const Surface& pixels)
     }
 }
 
+void Renderer::setDevicePixels(std::shared_ptr<const PixelTextures> pixels)
+{
+    device_.usePixels(std::move(pixels));
+    hasDevicePixels_ = true;
+}
+
+bool Renderer::drawsFromDevice(std::span<const Light> lights) const
+{
+    return plain_ && surface_.residual.empty() && surface_.horizon.empty() && !surface_.camera && !anyIsNear(lights);
+}
+
 void Renderer::setZoom(const std::optional<Zoom>& zoom)
 {
     if (zoom == zoom_) {
@@ -97,6 +117,7 @@ void Renderer::setZoom(const std::optional<Zoom>& zoom)
     if (!zoom || !zoom_ || zoom->size != zoom_->size) {
         nearer_.dropPicture();
     }
+    dropDevicePixels();
     nearer_.dropPixels();
     magnified_.reset();
     radiance_.reset();
@@ -295,7 +316,7 @@ void Renderer::drawDirectly(const Shaded& shaded)
     const DirectFrame::Look look{display_, show_ == Show::coverage};
     const PixelTextures& from = shaded.canvas.pixels(shaded.pixels, plain_);
     const DirectFrame::Inputs lit = inputs(1);
-    shaded.canvas.draw(Canvas::Draws::whatIsShown, shaded.pixels, [&](VkCommandBuffer commands, const Texture& codes) {
+    shaded.canvas.draw(Canvas::Draws::whatIsShown, [&](VkCommandBuffer commands, const Texture& codes) {
         shaded.canvas.directFrame.recordPicture(commands, from, lit, look, codes);
     });
 }
@@ -304,7 +325,7 @@ void Renderer::drawFalseColours(const Shaded& shaded)
 {
     const FalseColourConstants constants = falseColourConstants(lights_, view_, surface_.materials.size());
     const PixelTextures& from = shaded.canvas.pixels(shaded.pixels, plain_);
-    shaded.canvas.draw(Canvas::Draws::everything, shaded.pixels, [&](VkCommandBuffer commands, const Texture& codes) {
+    shaded.canvas.draw(Canvas::Draws::everything, [&](VkCommandBuffer commands, const Texture& codes) {
         falseColours_.record(commands, from, show_, constants, codes);
     });
 }
@@ -333,7 +354,7 @@ void Renderer::drawFromBalls(const Shaded& shaded, bool withResidual)
                                 .toneCurve = display_.toneCurve,
                                 .residual = residualPass_,
                                 .residualFours = withResidual ? from.residualFours : 0};
-    shaded.canvas.draw(Canvas::Draws::whatIsShown, shaded.pixels, [&](VkCommandBuffer commands, const Texture& codes) {
+    shaded.canvas.draw(Canvas::Draws::whatIsShown, [&](VkCommandBuffer commands, const Texture& codes) {
         shaded.canvas.ballFrame.record(commands, from, lit, codes);
     });
 }
@@ -364,6 +385,11 @@ const Texture* Renderer::drawMaterialBall(size_t material, int size)
 }
 
 Renderer::Shaded Renderer::shaded()
+{
+    return hasDevicePixels_ ? Shaded{device_, surface_} : shadedSurface();
+}
+
+Renderer::Shaded Renderer::shadedSurface()
 {
     if (!zoom_ || !zoom_->magnifies()) {
         return {own_, surface_};
@@ -399,13 +425,14 @@ void Renderer::drawPicture()
     uploadLights();
     const Shaded shaded = this->shaded();
     const bool isStale = shaded.canvas.isStale;
-    if (!isStale && !(zoom_ && zoomIsStale_)) {
+    const bool isZoomed = zoom_ && !hasDevicePixels_;
+    if (!isStale && !(isZoomed && zoomIsStale_)) {
         return;
     }
     if (isStale) {
         shade(shaded);
     }
-    if (zoom_) {
+    if (isZoomed) {
         drawZoomed(shaded.canvas);
     }
     ++drawnPictures_;
@@ -421,7 +448,7 @@ Frame Renderer::radiance()
 {
     if (!radiance_) {
         const DirectFrame::Inputs lit = inputs(1);
-        const Shaded shaded = this->shaded();
+        const Shaded shaded = shadedSurface();
         radiance_ = shaded.canvas.directFrame.radiance(shaded.pixels, lit);
         if (zoom_) {
             radiance_ = zoom_->magnifies() ? coveredRadiance(*radiance_, magnified_->cover)
@@ -455,7 +482,7 @@ Frame Renderer::render(const Scene& scene)
 
 VkDeviceSize Renderer::deviceBytes() const
 {
-    VkDeviceSize bytes = balls_.bytes() + groups_.bytes() + own_.bytes() + nearer_.bytes() + zoomFrame_.bytes() +
+    VkDeviceSize bytes = balls_.bytes() + groups_.bytes() + own_.bytes() + device_.bytes() + nearer_.bytes() + zoomFrame_.bytes() +
                          exposureFrame_.bytes() + residualPass_.bytes();
     for (const TableTexture& table : tables_) {
         bytes += table.texture.bytes();

@@ -1,5 +1,6 @@
 #pragma once
 #include <functional>
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -25,6 +26,11 @@ public:
     void setSurface(Surface surface, std::vector<BallSize> sizes = {});
     // Other pixels of the same materials, without albedo factors and layers as the surface is: balls stay.
     void setPixels(const Surface& pixels);
+    // Pixels that are on the device already, of all the picture or of the zoom's part of it, to be shown one for one:
+    // pictures are of them until pixels, surface or zoom are set again. Only of what drawsFromDevice().
+    void setDevicePixels(std::shared_ptr<const PixelTextures> pixels);
+    // Whether all that is drawn of a pixel is its normal, under these lights.
+    bool drawsFromDevice(std::span<const Light> lights) const;
     void setLights(std::span<const Light> lights);
     // While lights move, what those that stay add to pictures is kept, and balls have at most LitBalls::kMovingSize
     // texels: pictures are near to those at rest, and quick.
@@ -47,7 +53,10 @@ public:
     // The same without reading it back.
     void drawPicture();
     // What it has drawn: codes, to be copied from (kCopiedFrom).
-    const Texture& drawnPicture() const { return zoom_ ? zoomFrame_.codes() : own_.codes(); }
+    const Texture& drawnPicture() const
+    {
+        return hasDevicePixels_ ? device_.codes() : zoom_ ? zoomFrame_.codes() : own_.codes();
+    }
     // A ball of one of the materials under the lights of the picture, `size` pixels across, from the balls that the
     // picture is drawn from: one lookup a pixel. Null where pictures are drawn directly, or of a residual layer alone.
     const Texture* drawMaterialBall(size_t material, int size);
@@ -88,8 +97,9 @@ private:
     };
 
     void makeMaterialBall(size_t material, int size);
-    // What is drawn: the surface's own pixels, or those that the zoom wants.
+    // What is drawn: the surface's own pixels, those that the zoom wants, or those that are on the device.
     Shaded shaded();
+    Shaded shadedSurface(); // without the latter
     void uploadLights();
     void placePixels();
     void dropPixels();
@@ -101,6 +111,7 @@ private:
     // With the weights of the frame's lights, `gain` times, uploaded.
     DirectFrame::Inputs inputs(float gain);
     const BallCache& updatedBalls();
+    void dropDevicePixels();
     void drawDirectly(const Shaded& shaded);
     void drawFromBalls(const Shaded& shaded, bool withResidual);
     void drawFalseColours(const Shaded& shaded);
@@ -113,6 +124,8 @@ private:
     LitBalls balls_;
     VkDeviceSize cacheBytes_;
     Canvas own_;                // of the surface
+    Canvas device_;             // of pixels that are on the device, in place of all others
+    bool hasDevicePixels_ = false;
     DirectFrame exposureFrame_; // of exposurePixels_
     FalseColourFrame falseColours_;
 

@@ -249,6 +249,13 @@ void drawMesh(MeshRaster& raster, const SceneDescription& scene, Surface& surfac
     }
 }
 
+std::shared_ptr<const PixelTextures> drawMeshPixels(MeshRaster& raster, const SceneDescription& scene,
+                                                    const std::optional<Zoom>& zoom)
+{
+    const MeshView view = fittedView(*raster.mesh(), meshOptionsOf(scene));
+    return raster.drawPixels(zoom ? zoomedView(view, *zoom) : view);
+}
+
 namespace {
 
 void drawMeshOnce(const SceneDescription& scene, const Context& context, LoadedSurface& loaded)

@@ -51,6 +51,10 @@ LoadedSurface loadSurfaceOrMesh(const SceneDescription& scene, const SceneInputs
 // with horizons where it is to cast shadows. Throws Error.
 void drawMesh(MeshRaster& raster, const SceneDescription& scene, Surface& surface, bool isCoarse = false);
 
+// MeshRaster::drawPixels of the same mesh at the same turn: all of the picture, or the zoom's part of it.
+std::shared_ptr<const PixelTextures> drawMeshPixels(MeshRaster& raster, const SceneDescription& scene,
+                                                    const std::optional<Zoom>& zoom);
+
 // For drawMesh: in the scene's size.
 std::unique_ptr<MeshRaster> meshRasterFor(const Context& context, std::shared_ptr<const Mesh> mesh,
                                           const SceneDescription& scene);

@@ -71,4 +71,18 @@ MeshView fittedView(const Mesh& mesh, const MeshViewOptions& options)
     return options.turn == Turn() ? view : turnedView(mesh, view, options.turn);
 }
 
+MeshView zoomedView(const MeshView& view, const Zoom& zoom)
+{
+    const glm::dvec2 middle = glm::dvec2(zoom.origin) + 0.5 * glm::dvec2(zoom.size) / double{zoom.scale};
+    MeshView zoomed = view;
+    zoomed.width = zoom.size.x;
+    zoomed.height = zoom.size.y;
+    zoomed.centre.x += (middle.x - 0.5 * view.width) / view.pixelsPerUnit;
+    zoomed.centre.y -= (middle.y - 0.5 * view.height) / view.pixelsPerUnit;
+    for (double* length : {&zoomed.pixelsPerUnit, &zoomed.nearest, &zoomed.farthest}) {
+        *length *= zoom.scale;
+    }
+    return zoomed;
+}
+
 } // namespace nacre

@@ -11,6 +11,7 @@
 
 #include "engine/scene/turn.h"
 #include "engine/surface/normal_map.h"
+#include "engine/surface/zoom.h"
 
 namespace nacre {
 
@@ -68,5 +69,8 @@ struct MeshView {
 
 // Throws Error (usage) where up lies along from, Error (data) where the mesh has no extent in the view.
 MeshView fittedView(const Mesh& mesh, const MeshViewOptions& options);
+
+// The part of the view that a zoom shows, in the zoom's own pixels.
+MeshView zoomedView(const MeshView& view, const Zoom& zoom);
 
 } // namespace nacre

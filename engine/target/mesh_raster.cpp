@@ -1,21 +1,15 @@
 #include "engine/target/mesh_raster.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstddef>
-#include <map>
+#include <limits>
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/vec4.hpp>
 
 #include "engine/files/parallel_for.h"
-#include "engine/gpu/buffer.h"
-#include "engine/gpu/pass.h"
-#include "engine/target/normal_map_scale.h"
-#include "mesh_view_frag.h"
-#include "mesh_view_vert.h"
-#include "shared/mesh_layout.h"
+#include "engine/target/mesh_passes.h"
 
 namespace nacre {
 namespace {
@@ -79,223 +73,7 @@ Surface resolvedSurface(const glm::vec4* samples, int width, int height, int sam
     return surface;
 }
 
-constexpr size_t kTrianglesPerUpload = 1 << 17;    // 18 MiB of vertices
 constexpr VkDeviceSize kLargestTarget = 512 << 20; // bytes of samples
-
-// One corner of a triangle as shaders/mesh_view.vert reads it.
-struct MeshVertex {
-    glm::vec3 point;
-    glm::vec3 normal;
-    glm::vec4 tangent;
-    glm::vec2 uv;
-};
-
-VkVertexInputAttributeDescription attribute(int location, VkFormat format, size_t offset)
-{
-    return {.location = static_cast<uint32_t>(location),
-            .binding = 0,
-            .format = format,
-            .offset = static_cast<uint32_t>(offset)};
-}
-
-const std::array kAttributes = {attribute(kMeshPoint, VK_FORMAT_R32G32B32_SFLOAT, offsetof(MeshVertex, point)),
-                                attribute(kMeshNormal, VK_FORMAT_R32G32B32_SFLOAT, offsetof(MeshVertex, normal)),
-                                attribute(kMeshTangent, VK_FORMAT_R32G32B32A32_SFLOAT, offsetof(MeshVertex, tangent)),
-                                attribute(kMeshUv, VK_FORMAT_R32G32_SFLOAT, offsetof(MeshVertex, uv))};
-const VertexInput kVertices{
-    .shader = mesh_view_vert, .stride = sizeof(MeshVertex), .attributes = kAttributes, .depthFormat = kDepthFormat};
-constexpr std::array kMeshBindings = {ShaderBinding{kBindingMeshNormalMap, kTextureInput}};
-static_assert(kConstantMeshMapped == 0, "the first of the constants");
-
-constexpr ImageUse kDepthTested{
-    VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL,
-    VK_PIPELINE_STAGE_2_EARLY_FRAGMENT_TESTS_BIT | VK_PIPELINE_STAGE_2_LATE_FRAGMENT_TESTS_BIT,
-    VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_READ_BIT | VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT};
-
-Texture uploadNormalMap(const Context& context, const NormalMap& map)
-{
-    std::vector<glm::vec4> texels(map.normals.size());
-    for (size_t i = 0; i < texels.size(); ++i) {
-        // Where the map has nothing the mesh's own normal stays.
-        texels[i] = map.confidence[i] > 0 ? glm::vec4(map.normals[i], 0) : glm::vec4(0, 0, 1, 0);
-    }
-    const VkExtent3D extent{static_cast<uint32_t>(map.width), static_cast<uint32_t>(map.height), 1};
-    return uploadTexture(context, VK_IMAGE_TYPE_2D, extent, kFloatFormat, texels);
-}
-
-} // namespace
-
-// One target and what is drawn to it.
-class MeshRaster::Passes {
-public:
-    Passes(const Context& context, const Mesh& mesh, int width, int height, int samplesPerSide)
-        : context_(context), mesh_(mesh),
-          samplesPerSide_(samplesPerSide), extent_{static_cast<uint32_t>(width * samplesPerSide),
-                                                   static_cast<uint32_t>(height * samplesPerSide), 1},
-          target_(makeTarget(context, extent_, kFloatFormat)),
-          depth_(context,
-                 {.extent = extent_, .format = kDepthFormat, .usage = VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT}),
-          vertices_(context,
-                    3 * std::min(std::max<size_t>(mesh.triangleCount(), 1), kTrianglesPerUpload) * sizeof(MeshVertex),
-                    VK_BUFFER_USAGE_VERTEX_BUFFER_BIT),
-          samples_(context, VkDeviceSize{extent_.width} * extent_.height * sizeof(glm::vec4),
-                   VK_BUFFER_USAGE_TRANSFER_DST_BIT),
-          nearest_(makeSampler(context, VK_FILTER_NEAREST)), noMap_(uploadNormalMap(context, NormalMap(1, 1))),
-
-          pipelines_(context, {.fragmentShader = mesh_view_frag,
-                               .bindings = kMeshBindings,
-                               .pushConstantBytes = sizeof(MeshConstants),
-                               .targetFormat = kFloatFormat,
-                               .vertices = &kVertices})
-    {
-    }
-
-    void drawParts(const MeshView& view)
-    {
-        view_ = view;
-        maps_.clear(); // they are made for the size at which they are seen
-        isEmpty_ = true;
-        for (size_t part = 0; part < mesh_.parts.size(); ++part) {
-            const MeshPart& drawn = mesh_.parts[part];
-            const Texture* map = normalMapOf(drawn);
-            const size_t label = std::min<size_t>(part, Surface::kNoMaterial - 1);
-            for (size_t first = 0; first < drawn.indexCount; first += 3 * kTrianglesPerUpload) {
-                const size_t count = std::min(3 * kTrianglesPerUpload, drawn.indexCount - first);
-                fillVertices(drawn.firstIndex + first, count);
-                context_.run([&](VkCommandBuffer commands) {
-                    record(commands, static_cast<uint32_t>(count), static_cast<float>(label + 1), map);
-                });
-                isEmpty_ = false;
-            }
-        }
-    }
-
-    // x, y of the normal, height, label + 1 (0 = nothing) of each sample.
-    const glm::vec4* read()
-    {
-        context_.run([&](VkCommandBuffer commands) {
-            imageBarrier(commands, target_.image(), kDrawnTo, kCopiedFrom);
-            const VkBufferImageCopy copy{.imageSubresource = {.aspectMask = VK_IMAGE_ASPECT_COLOR_BIT, .layerCount = 1},
-                                         .imageExtent = extent_};
-            vkCmdCopyImageToBuffer(commands, target_.image(), kCopiedFrom.layout, samples_.get(), 1, &copy);
-            makeVisibleToHost(commands, samples_);
-        });
-        return static_cast<const glm::vec4*>(samples_.mapped());
-    }
-
-    int samplesPerSide() const { return samplesPerSide_; }
-    const Context& context() const { return context_; }
-
-private:
-    // Null: the part has none. Maps of several parts are uploaded once, at the size at which they are seen.
-    const Texture* normalMapOf(const MeshPart& part)
-    {
-        if (!part.normalMap) {
-            return nullptr;
-        }
-        const auto [at, isNew] = maps_.try_emplace(part.normalMap.get());
-        if (isNew) {
-            const double samplesPerUnit = view_.pixelsPerUnit * samplesPerSide_;
-            at->second = uploadNormalMap(context_, seenNormalMap(mesh_, part, samplesPerUnit));
-        }
-        return &at->second;
-    }
-
-    void fillVertices(size_t firstIndex, size_t count)
-    {
-        auto* vertices = static_cast<MeshVertex*>(vertices_.mapped());
-        const glm::mat3 turn(view_.turn);
-        parallelFor(count, 1 << 14, 0, [&](size_t first, size_t last) {
-            for (size_t i = first; i < last; ++i) {
-                const uint32_t v = mesh_.indices[firstIndex + i];
-                const glm::dvec3 p = view_.pixelPoint(mesh_.positions[v]);
-                MeshVertex vertex{{samplesPerSide_ * p.x, samplesPerSide_ * p.y, p.z}, turn * mesh_.normals[v], {}, {}};
-                if (!mesh_.tangents.empty()) {
-                    const glm::vec4& tangent = mesh_.tangents[v];
-                    vertex.tangent = glm::vec4(turn * glm::vec3(tangent), tangent.w);
-                    vertex.uv = mesh_.uvs[v];
-                }
-                vertices[i] = vertex;
-            }
-        });
-    }
-
-    void beginRendering(VkCommandBuffer commands)
-    {
-        imageBarrier(commands, target_.image(), isEmpty_ ? kUnused : kDrawnTo, kDrawnTo);
-        imageBarrier(commands, depth_.image(), isEmpty_ ? kUnused : kDepthTested, kDepthTested,
-                     VK_IMAGE_ASPECT_DEPTH_BIT);
-        const VkAttachmentLoadOp load = isEmpty_ ? VK_ATTACHMENT_LOAD_OP_CLEAR : VK_ATTACHMENT_LOAD_OP_LOAD;
-        const VkRenderingAttachmentInfo color{.sType = VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO,
-                                              .imageView = target_.view(),
-                                              .imageLayout = kDrawnTo.layout,
-                                              .loadOp = load,
-                                              .storeOp = VK_ATTACHMENT_STORE_OP_STORE,
-                                              .clearValue = {.color = {.float32 = {0, 0, 0, 0}}}};
-        const VkRenderingAttachmentInfo depth{.sType = VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO,
-                                              .imageView = depth_.view(),
-                                              .imageLayout = kDepthTested.layout,
-                                              .loadOp = load,
-                                              .storeOp = VK_ATTACHMENT_STORE_OP_STORE,
-                                              .clearValue = {.depthStencil = {.depth = 1}}};
-        const VkRect2D area{.extent = {extent_.width, extent_.height}};
-        const VkRenderingInfo info{.sType = VK_STRUCTURE_TYPE_RENDERING_INFO,
-                                   .renderArea = area,
-                                   .layerCount = 1,
-                                   .colorAttachmentCount = 1,
-                                   .pColorAttachments = &color,
-                                   .pDepthAttachment = &depth};
-        vkCmdBeginRendering(commands, &info);
-        const VkViewport viewport{
-            .width = static_cast<float>(extent_.width), .height = static_cast<float>(extent_.height), .maxDepth = 1};
-        vkCmdSetViewport(commands, 0, 1, &viewport);
-        vkCmdSetScissor(commands, 0, 1, &area);
-    }
-
-    void record(VkCommandBuffer commands, uint32_t vertexCount, float label, const Texture* map)
-    {
-        // A little beyond the nearest and the farthest, which rounding would clip.
-        const auto reach = static_cast<float>(1.001 * (view_.nearest - view_.farthest) + 1);
-        const MeshConstants constants{{extent_.width, extent_.height},
-                                      static_cast<float>(view_.nearest) + 0.0005f * reach,
-                                      1.001f * reach,
-                                      static_cast<float>(samplesPerSide_),
-                                      label};
-        const Pipeline& pipeline = pipelines_.with({map != nullptr});
-        beginRendering(commands);
-        vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline.get());
-        const ShaderInput input = textureInput(kBindingMeshNormalMap, nearest_, map ? *map : noMap_);
-        const VkWriteDescriptorSet write{.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
-                                         .dstBinding = input.binding,
-                                         .descriptorCount = 1,
-                                         .descriptorType = kTextureInput,
-                                         .pImageInfo = &input.image};
-        context_.pushDescriptorSet(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline.layout(), 0, 1, &write);
-        vkCmdPushConstants(commands, pipeline.layout(), pipeline.constantStages(), 0, sizeof(constants), &constants);
-        const VkBuffer buffer = vertices_.get();
-        const VkDeviceSize offset = 0;
-        vkCmdBindVertexBuffers(commands, 0, 1, &buffer, &offset);
-        vkCmdDraw(commands, vertexCount, 1, 0, 0);
-        vkCmdEndRendering(commands);
-    }
-
-    const Context& context_;
-    const Mesh& mesh_;
-    MeshView view_;
-    int samplesPerSide_;
-    VkExtent3D extent_;
-    Texture target_;
-    Texture depth_;
-    Buffer vertices_;
-    Buffer samples_; // read back
-    Sampler nearest_;
-    Texture noMap_;       // the shader has a place for one
-    Pipelines pipelines_; // without and with a normal map
-    std::map<const NormalMap*, Texture> maps_;
-    bool isEmpty_ = true;
-};
-
-namespace {
 
 int samplesPerSideFor(const Context& context, int width, int height)
 {
@@ -307,31 +85,120 @@ int samplesPerSideFor(const Context& context, int width, int height)
     return fits ? 2 : 1;
 }
 
+VkExtent3D extentOf(int width, int height, int samplesPerSide)
+{
+    return {static_cast<uint32_t>(width * samplesPerSide), static_cast<uint32_t>(height * samplesPerSide), 1};
+}
+
+// The part of the picture that a box of the mesh's axes lies in.
+VkRect2D boundsOf(const std::array<glm::vec3, 2>& box, const MeshView& view)
+{
+    glm::dvec2 low(std::numeric_limits<double>::max()), high(-low);
+    for (int corner = 0; corner < 8; ++corner) {
+        const glm::vec3 at(box[corner & 1].x, box[corner >> 1 & 1].y, box[corner >> 2].z);
+        const glm::dvec2 pixel(view.pixelPoint(at));
+        low = glm::min(low, pixel);
+        high = glm::max(high, pixel);
+    }
+    const glm::dvec2 most(view.width, view.height);
+    const glm::dvec2 first = glm::clamp(glm::floor(low), glm::dvec2(0), most);
+    const glm::dvec2 size = glm::clamp(glm::ceil(high), first, most) - first;
+    return {.offset = {static_cast<int32_t>(first.x), static_cast<int32_t>(first.y)},
+            .extent = {static_cast<uint32_t>(size.x), static_cast<uint32_t>(size.y)}};
+}
+
 } // namespace
 
+// Read back, and made a surface.
+class MeshRaster::Samples {
+public:
+    Samples(const Context& context, const Mesh& mesh, int width, int height, int samplesPerSide)
+        : context_(context), target_(makeTarget(context, extentOf(width, height, samplesPerSide), kFloatFormat)),
+          passes_(context, mesh, MeshPasses::Draws::samples, target_, samplesPerSide, kCopiedFrom),
+          readback_(context, VkDeviceSize{target_.extent().width} * target_.extent().height * sizeof(glm::vec4),
+                    VK_BUFFER_USAGE_TRANSFER_DST_BIT)
+    {
+    }
+
+    Surface draw(const MeshView& view)
+    {
+        passes_.draw(view);
+        context_.run([&](VkCommandBuffer commands) {
+            const VkBufferImageCopy copy{.imageSubresource = {.aspectMask = VK_IMAGE_ASPECT_COLOR_BIT, .layerCount = 1},
+                                         .imageExtent = target_.extent()};
+            vkCmdCopyImageToBuffer(commands, target_.image(), kCopiedFrom.layout, readback_.get(), 1, &copy);
+            makeVisibleToHost(commands, readback_);
+        });
+        return resolvedSurface(static_cast<const glm::vec4*>(readback_.mapped()), view.width, view.height,
+                               passes_.samplesPerSide());
+    }
+
+private:
+    const Context& context_;
+    Texture target_;
+    MeshPasses passes_;
+    Buffer readback_;
+};
+
+// Left on the device.
+class MeshRaster::Pixels {
+public:
+    Pixels(const Context& context, const Mesh& mesh, int width, int height)
+        : pixels_(std::make_shared<PixelTextures>(
+              PixelTextures{.normals = makeTarget(context, extentOf(width, height, 1), MeshPasses::kPackedFormat)})),
+          passes_(context, mesh, MeshPasses::Draws::packedNormals, pixels_->normals, 1, kSampled)
+    {
+    }
+
+    VkExtent3D extent() const { return pixels_->normals.extent(); }
+
+    std::shared_ptr<const PixelTextures> draw(const MeshView& view, const std::array<glm::vec3, 2>& box)
+    {
+        passes_.draw(view);
+        pixels_->shown = boundsOf(box, view);
+        return pixels_;
+    }
+
+private:
+    std::shared_ptr<PixelTextures> pixels_;
+    MeshPasses passes_;
+};
+
 MeshRaster::MeshRaster(const Context& context, std::shared_ptr<const Mesh> mesh, int width, int height)
-    : mesh_(std::move(mesh))
+    : context_(context), mesh_(std::move(mesh)), width_(width), height_(height)
 {
     requirePictureSize(context, width, height);
-    passes_ = std::make_unique<Passes>(context, *mesh_, width, height, samplesPerSideFor(context, width, height));
+    box_ = {glm::vec3(std::numeric_limits<float>::max()), glm::vec3(std::numeric_limits<float>::lowest())};
+    for (const uint32_t index : mesh_->indices) {
+        box_ = {glm::min(box_[0], mesh_->positions[index]), glm::max(box_[1], mesh_->positions[index])};
+    }
 }
 
 MeshRaster::~MeshRaster() = default;
 
 Surface MeshRaster::draw(const MeshView& view, bool isCoarse)
 {
-    if (isCoarse && !coarse_) {
-        coarse_ = std::make_unique<Passes>(passes_->context(), *mesh_, view.width, view.height, 1);
+    std::unique_ptr<Samples>& samples = isCoarse ? coarse_ : samples_;
+    if (!samples) {
+        samples = std::make_unique<Samples>(context_, *mesh_, width_, height_,
+                                            isCoarse ? 1 : samplesPerSideFor(context_, width_, height_));
     }
-    Passes& passes = isCoarse ? *coarse_ : *passes_;
-    passes.drawParts(view);
-    Surface surface = resolvedSurface(passes.read(), view.width, view.height, passes.samplesPerSide());
+    Surface surface = samples->draw(view);
     for (const MeshPart& part : mesh_->parts) {
         if (surface.parts.size() < Surface::kNoMaterial) {
             surface.parts.push_back(part.name);
         }
     }
     return surface;
+}
+
+std::shared_ptr<const PixelTextures> MeshRaster::drawPixels(const MeshView& view)
+{
+    const VkExtent3D wanted = extentOf(view.width, view.height, 1);
+    if (!pixels_ || pixels_->extent().width != wanted.width || pixels_->extent().height != wanted.height) {
+        pixels_ = std::make_unique<Pixels>(context_, *mesh_, view.width, view.height);
+    }
+    return pixels_->draw(view, box_);
 }
 
 Surface rasterisedMesh(const Context& context, const Mesh& mesh, const MeshView& view)

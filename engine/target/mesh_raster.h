@@ -1,7 +1,9 @@
 #pragma once
+#include <array>
 #include <memory>
 
 #include "engine/gpu/context.h"
+#include "engine/gpu/surface_textures.h"
 #include "engine/surface/surface.h"
 #include "engine/target/mesh.h"
 
@@ -22,11 +24,19 @@ public:
     const std::shared_ptr<const Mesh>& mesh() const { return mesh_; }
     // Of that size. Coarse: by one sample a pixel, while the mesh moves.
     Surface draw(const MeshView& view, bool isCoarse = false);
+    // The same by one sample a pixel, in a picture of any size, without leaving the device: pixels of a plain surface,
+    // compact ones, drawn over by the next call.
+    std::shared_ptr<const PixelTextures> drawPixels(const MeshView& view);
 
 private:
-    class Passes;
+    class Samples;
+    class Pixels;
+    const Context& context_;
     std::shared_ptr<const Mesh> mesh_;
-    std::unique_ptr<Passes> passes_, coarse_; // the latter once they are needed
+    int width_, height_;
+    std::array<glm::vec3, 2> box_; // lowest and highest of the mesh's axes
+    std::unique_ptr<Samples> samples_, coarse_;
+    std::unique_ptr<Pixels> pixels_;
 };
 
 } // namespace nacre

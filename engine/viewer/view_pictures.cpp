@@ -62,23 +62,24 @@ std::string describeComparison(const Image& photograph, const Frame& render, con
                        radiancePsnr(photograph, render, mask, peak), ratio);
 }
 
-void drawOnMesh(const Context& context, DrawnSurface& drawn, const ViewState& state, bool isCoarse)
+MeshRaster& rasterOf(const Context& context, DrawnSurface& drawn, const ViewState& state)
 {
     if (!drawn.raster) {
         drawn.raster = meshRasterFor(context, drawn.mesh, state);
     }
-    drawMesh(*drawn.raster, state, drawn.surface, isCoarse);
+    return *drawn.raster;
 }
 
 } // namespace
 
 void ViewPictures::setScene(const LoadedScene& scene, const ViewState& state)
 {
+    isTurning_ = false;
     turnTo(state);
     for (DrawnSurface* drawn : {scene.main.get(), scene.other.get()}) {
         const bool isDrawn = drawn == scene_.main.get() || drawn == scene_.other.get();
         if (drawn && drawn->mesh && !isDrawn) {
-            drawOnMesh(context_, *drawn, state, isCoarse_);
+            drawMesh(rasterOf(context_, *drawn, state), state, drawn->surface);
         }
     }
     if (scene.main != scene_.main) {
@@ -96,19 +97,30 @@ void ViewPictures::setScene(const LoadedScene& scene, const ViewState& state)
 
 void ViewPictures::turnTo(const ViewState& state)
 {
-    const bool isSame = state.turn == turn_;
-    if (isSame && (isTurning_ || !isCoarse_)) {
+    const bool onDevice = isTurning_ && main_.drawsFromDevice(lights_);
+    const Pose pose{state.turn, isTurning_, onDevice, onDevice ? zoom_ : std::nullopt};
+    if (pose == pose_ || pose_ == Pose{state.turn}) {
         return;
     }
-    turn_ = state.turn;
-    isCoarse_ = isTurning_;
+    pose_ = pose;
     const std::pair<DrawnSurface*, Renderer*> drawn[] = {{scene_.main.get(), &main_},
                                                          {scene_.other.get(), other_.get()}};
     for (const auto& [surface, renderer] : drawn) {
         if (surface && surface->mesh) {
-            drawOnMesh(context_, *surface, state, isCoarse_);
-            renderer->setPixels(surface->surface);
+            drawTurned(*surface, *renderer, state);
         }
+    }
+}
+
+void ViewPictures::drawTurned(DrawnSurface& drawn, Renderer& renderer, const ViewState& state) const
+{
+    MeshRaster& raster = rasterOf(context_, drawn, state);
+    if (pose_.onDevice) {
+        renderer.setZoom(pose_.zoom);
+        renderer.setDevicePixels(drawMeshPixels(raster, state, pose_.zoom));
+    } else {
+        drawMesh(raster, state, drawn.surface, pose_.isCoarse);
+        renderer.setPixels(drawn.surface);
     }
 }
 
@@ -138,8 +150,8 @@ void ViewPictures::applyVerdicts(const ViewState& state)
 
 void ViewPictures::apply(ViewState& state, const glm::vec3& view, std::span<const CapturedLight> captured)
 {
-    turnTo(state);
     lights_ = lightsOfScene(state, scene_.environment.get(), captured);
+    turnTo(state);
     view_ = view;
     wipeAt_ = state.wipe.at;
     if (!state.exposure) {

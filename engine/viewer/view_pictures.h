@@ -18,16 +18,19 @@ public:
     // Lights, exposure (automatic where the state has none, which is then written into it), what is shown.
     void apply(ViewState& state, const glm::vec3& view, std::span<const CapturedLight> captured);
 
-    // Meshes are drawn coarsely while they are turned.
+    // While meshes are turned they are drawn by one sample a pixel, at the zoom's scale where nothing but normals is
+    // needed of them: the scene's surfaces then are as they were last at rest.
     void setTurning(bool isTurning) { isTurning_ = isTurning; }
+    bool isTurning() const { return isTurning_; }
     // Renderer::setLightsMove of all of them.
     void setLightsMove(bool move) { lightsMove_ = move; }
     bool doLightsMove() const { return lightsMove_; }
+    bool isMoving() const { return isTurning_ || lightsMove_; }
 
     // Read ones, which verdicts are on; null: none are at hand, and the render stands in their place.
     void setPhotographs(const Photographs* photographs) { photographs_ = photographs; }
 
-    // The part of the renders that is drawn from now on, and its scale; none: all of them as they are.
+    // The part of the renders that is drawn from the next apply() on, and its scale; none: all of them as they are.
     void setZoom(const std::optional<Zoom>& zoom) { zoom_ = zoom; }
     // What has changed since; true where something was drawn.
     bool draw();
@@ -58,6 +61,7 @@ private:
     };
 
     void turnTo(const ViewState& state);
+    void drawTurned(DrawnSurface& drawn, Renderer& renderer, const ViewState& state) const;
     void applyTo(Renderer& renderer, const ViewState& state, const glm::vec3& view) const;
     void applyVerdicts(const ViewState& state);
     void zoomTo(const std::optional<Zoom>& zoom);
@@ -67,8 +71,15 @@ private:
     Renderer main_;
     std::unique_ptr<Renderer> other_;
     LoadedScene scene_;
-    Turn turn_; // of its meshes, as they are drawn
-    bool isTurning_ = false, isCoarse_ = false;
+    struct Pose {
+        Turn turn;
+        bool isCoarse = false;
+        bool onDevice = false;      // alone, where it is coarse
+        std::optional<Zoom> zoom{}; // there
+        bool operator==(const Pose&) const = default;
+    };
+    Pose pose_; // of its meshes, as they are drawn
+    bool isTurning_ = false;
     bool lightsMove_ = false;
     const Photographs* photographs_ = nullptr;
     std::optional<Verdicts> verdicts_; // in place of the renders

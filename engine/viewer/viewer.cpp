@@ -28,7 +28,7 @@ namespace nacre {
 namespace {
 
 constexpr double kProgressSeconds = 0.1; // between looks at what is loading
-constexpr double kRestSeconds = 0.25;    // after which a light that is held counts as still
+constexpr double kRestSeconds = 0.25;    // after which what is held counts as still
 constexpr double kTitleSeconds = 0.25;   // between changes of the title while frames follow each other
 constexpr glm::vec3 kBackground{0.11f, 0.11f, 0.12f};
 constexpr const char* kHint = "Drag on the ball of lights, or with the right button anywhere. H: help";
@@ -79,7 +79,7 @@ private:
     glm::vec3 view_{0, 0, 1};
 
     FramePace pace_;
-    bool rests_ = false; // the mouse, while it holds a light
+    bool rests_ = false; // the mouse, while it holds a light or the object
     std::string remark_; // on the picture that was last at rest
     Stopwatch sinceTitle_;
 
@@ -134,13 +134,13 @@ double ViewerWindow::waitingTime() const
     if (loads_.busy() != nullptr) {
         return kProgressSeconds;
     }
-    return pictures_.doLightsMove() ? kRestSeconds : -1;
+    return pictures_.isMoving() ? kRestSeconds : -1;
 }
 
 void ViewerWindow::takeEvents(const WindowEvents& events)
 {
     if (!events.any) {
-        if (!pace_.isDue() && pictures_.doLightsMove()) {
+        if (!pace_.isDue() && pictures_.isMoving()) {
             rests_ = true;
             pace_.ask(1);
         }
@@ -280,11 +280,12 @@ std::optional<SeenPart> ViewerWindow::seenPart() const
 
 void ViewerWindow::drawPictures()
 {
-    pictures_.setTurning(input_.isTurning());
+    pictures_.setTurning(input_.isTurning() && !rests_);
     pictures_.setLightsMove(input_.movesLights() && !rests_);
-    applyState();
+    settleShow(session_);
     seen_ = seenPart();
     pictures_.setZoom(seen_ ? std::optional(seen_->zoom) : std::nullopt);
+    applyState();
     pictures_.draw();
     if (!pictures_.scene().main->surface.materials.empty()) {
         ball_ = &lightBall_.draw(pictures_, layout().ballSize());
@@ -320,7 +321,7 @@ void ViewerWindow::describePanels(const Stage& stage)
                              .drawn = drawn,
                              .photographs = session_.state.onto.empty() ? loads_.photographs() : nullptr,
                              .verdicts = pictures_.verdicts(),
-                             .pixel = input_.pixel,
+                             .pixel = pictures_.isTurning() ? std::nullopt : input_.pixel,
                              .comparisonFigures = comparison_.figures(),
                              .scale = stage.scale};
     showPanels(session_, inputs, stage, layout().panelWidth(), placed_);
@@ -331,9 +332,11 @@ void ViewerWindow::describePanels(const Stage& stage)
                             (session_.state.show == Show::picture || session_.state.show == Show::coverage);
     if (!isRendered) {
         remark_.clear();
+    } else if (pictures_.isTurning()) {
+        remark_ = "outlines are coarse while the object turns";
     } else if (pictures_.doLightsMove() && pictures_.renderer().isCoarse()) {
         remark_ = "highlights are coarse while a light moves";
-    } else if (!pace_.isDue() && !session_.playing) { // it takes as long as a frame: once nothing moves
+    } else if (!pictures_.isMoving() && !pace_.isDue() && !session_.playing) { // it takes as long as a frame: once nothing moves
         remark_ = describeUncertainShare(pictures_.uncertainShare());
     }
     if (showStatus(session_, loads_.busy(), stage, remark_)) {

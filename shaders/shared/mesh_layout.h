@@ -11,7 +11,9 @@ const int kMeshTangent = 2; // xyz camera frame, w handedness
 const int kMeshUv = 3;
 
 const int kBindingMeshNormalMap = 0; // sampled 2D, tangent space, green up
-const int kConstantMeshMapped = 0;   // specialisation: the part has a normal map
+// Specialisation:
+const int kConstantMeshMapped = 0; // the part has a normal map
+const int kConstantMeshPacked = 1; // normals alone are drawn, packed
 
 struct MeshConstants {
     vec2 samples;          // of the target, across and down

@@ -6,6 +6,8 @@
 #include <glm/matrix.hpp>
 #include <gtest/gtest.h>
 
+#include "engine/brdf/brdf_models.h"
+#include "engine/brdf/brdf_tabulation.h"
 #include "engine/files/measures.h"
 #include "engine/target/mesh_file.h"
 #include "engine/target/mesh_raster.h"
@@ -32,6 +34,15 @@ protected:
 
     TempFolder folder_;
 };
+
+float largestDifference(const Image& a, const Image& b)
+{
+    float largest = a.values.size() == b.values.size() ? 0 : 1;
+    for (size_t i = 0; i < std::min(a.values.size(), b.values.size()); ++i) {
+        largest = std::max(largest, std::abs(a.values[i] - b.values[i]));
+    }
+    return largest;
+}
 
 constexpr int kRasterSize = 256;
 // Of the unit sphere in a picture of kRasterSize pixels with 4 % margins.
@@ -198,6 +209,63 @@ TEST_F(MeshRasterTest, CoarselyItIsNearlyTheSameAndFinelyTheSameAfterwards)
     EXPECT_EQ(before.normals.normals, after.normals.normals);
     EXPECT_EQ(before.height.values, after.height.values);
     EXPECT_LT(sphereErrors(coarse).first, 1);
+}
+
+TEST_F(MeshRasterTest, AZoomShowsAPartOfTheView)
+{
+    const Mesh mesh = loadMesh(write("sphere.obj", sphereObj(10, true)));
+    const MeshView whole = fittedView(mesh, {.width = 300, .height = 200, .turn = {.yaw = 20}});
+    const Zoom zoom{.scale = 2.5f, .origin = {40.5f, 17}, .size = {301, 97}};
+    const MeshView part = zoomedView(whole, zoom);
+    EXPECT_EQ(glm::ivec2(part.width, part.height), zoom.size);
+    for (const glm::vec3& p : mesh.positions) {
+        const glm::dvec3 expected = 2.5 * (whole.pixelPoint(p) - glm::dvec3(zoom.origin, 0));
+        EXPECT_LT(glm::length(part.pixelPoint(p) - expected), 1e-6);
+        EXPECT_LE(part.pixelPoint(p).z, part.nearest + 1e-6);
+        EXPECT_GE(part.pixelPoint(p).z, part.farthest - 1e-6);
+    }
+}
+
+// Pixels that never leave the device against the same samples that were read back; and nothing is left of them after.
+TEST_F(MeshRasterTest, PixelsOnTheDeviceAreDrawnAsThoseReadBack)
+{
+    const auto mesh = std::make_shared<const Mesh>(loadMesh(write("sphere.obj", sphereObj(60, true))));
+    const MeshView view = fittedView(*mesh, {.width = kRasterSize, .height = kRasterSize});
+    const Zoom zoom{.scale = 1.75f, .origin = {3, 70}, .size = {kRasterSize, kRasterSize}};
+    MeshRaster raster(*context, mesh, kRasterSize, kRasterSize);
+    const std::vector<Light> lights = {{.direction = glm::normalize(glm::vec3(0.4f, 0.5f, 0.8f))}};
+    const auto rendererOf = [&](const Surface& seen) {
+        Surface surface = transferredSurface(
+            seen, {"matte", tabulatedBrdf(LambertGgx{.specular = glm::vec3(0.04f)}, {16, 16, 16}, {}, 1), {}});
+        auto renderer = std::make_unique<Renderer>(*context);
+        renderer->setSurface(std::move(surface), {{.radiance = 128, .display = 1024}});
+        renderer->setLights(lights);
+        return renderer;
+    };
+    const auto atRest = rendererOf(raster.draw(view));
+    const Image before = atRest->picture();
+    atRest->setZoom(zoom);
+    const Image magnified = atRest->picture();
+    ASSERT_TRUE(atRest->drawsFromDevice(lights));
+    const auto readBack = rendererOf(raster.draw(zoomedView(view, zoom), true));
+    for (const Show show : {Show::picture, Show::normals}) {
+        atRest->setShow(show);
+        readBack->setShow(show);
+        for (int time = 0; time < 2; ++time) { // over what was drawn before
+            atRest->setDevicePixels(raster.drawPixels(zoomedView(view, zoom)));
+            // 16 bits hold a normal less finely than the device's 32: it may read the ball's next texel.
+            EXPECT_LE(largestDifference(atRest->picture(), readBack->picture()), 2.5f / 255);
+        }
+    }
+    atRest->setShow(Show::picture);
+    const Frame radiance = atRest->radiance();
+    atRest->setPixels(raster.draw(view));
+    EXPECT_EQ(atRest->picture().values, magnified.values);
+    EXPECT_EQ(atRest->radiance().values, radiance.values) << "which is never of the device's";
+    atRest->setZoom({});
+    EXPECT_EQ(atRest->picture().values, before.values);
+    const std::vector<Light> near = {{.direction = lights[0].direction, .distance = 2}};
+    EXPECT_FALSE(atRest->drawsFromDevice(near)) << "near lights ask where a pixel lies";
 }
 
 TEST_F(MeshRasterTest, PitchBringsTheTopNearerAndRollIsCounterClockwise)

@@ -163,7 +163,7 @@ check "no message of Vulkan's validation with generated shapes" quits_quietly
 shots=$work/shots5; rm -rf "$shots"; mkdir -p "$shots"
 printf 'v %s\n' '0 0 1' '1 0 -1' '-1 1 -1' '-1 -1 -1' >"$work/pyramid.obj"
 printf 'f %s\n' '1 2 3' '1 3 4' '1 4 2' '2 4 3' >>"$work/pyramid.obj"
-open_window --onto "$work/pyramid.obj" --size 128x128
+open_window --onto "$work/pyramid.obj" --size 730x694
 screenshot; still=$shot
 drag 2 600 300 640 320 680 310; screenshot
 check "a middle drag turns a mesh" holds "$shot" '"turn"'
@@ -173,6 +173,14 @@ drag 2 600 300 580 300 560 300; screenshot
 check "O turns lights with it" differs_in_light "$still" "$shot"
 press r; screenshot
 check "turned back it has the same bytes" cmp "$still" "$shot"
+xdotool mousemove 600 300 mousedown 2 mousemove 610 310 sleep 0.1 mousemove 640 320 sleep 0.1 mousemove 680 310
+screenshot; held=$shot
+check_later "a screenshot is full while a mesh is turned" reproduces "$held"
+check "and so is the screen, once the mouse is still" screen_shows "$held" "$picture"
+xdotool mouseup 2; screenshot
+check "it stays so once the mesh is let go" cmp "$held" "$shot"
+press r; screenshot
+check "and has the first bytes again" cmp "$still" "$shot"
 check "no message of Vulkan's validation with a mesh" quits_quietly
 
 shots=$work/shots6; rm -rf "$shots"; mkdir -p "$shots"
