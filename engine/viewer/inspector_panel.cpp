@@ -14,6 +14,7 @@ namespace nacre {
 namespace {
 
 constexpr int kLobeSamples = 181;  // a degree apart
+constexpr float kLeastLine = 2;    // pixels of a lobe's outline
 constexpr float kPlotHeight = 110; // units of layout
 
 constexpr ImU32 kAxis = IM_COL32(110, 110, 115, 255);
@@ -78,11 +79,18 @@ void plotLobe(std::span<const LobeSample> samples, float incidence, float height
     list.AddLine({foot.x - reach, foot.y}, {foot.x + reach, foot.y}, kAxis);
     list.AddLine(foot, place(0, reach), kAxis);
     list.AddLine(foot, place(-incidence, reach), IM_COL32(255, 214, 90, 255), 0.02f * height);
-    for (size_t i = 0; i + 1 < samples.size(); ++i) {
-        const bool isCertain = samples[i].isCertain && samples[i + 1].isCertain;
-        list.AddLine(place(samples[i].angle, reach * meanOf(samples[i].f) / largest),
-                     place(samples[i + 1].angle, reach * meanOf(samples[i + 1].f) / largest),
-                     isCertain ? IM_COL32(120, 220, 140, 255) : IM_COL32(120, 220, 140, 90), 0.014f * height);
+    const auto placeOf = [&](const LobeSample& sample) {
+        return place(sample.angle, reach * meanOf(sample.f) / largest);
+    };
+    for (size_t first = 0, i = 1; i < samples.size(); ++i) {
+        const bool isCertain = samples[i].isCertain && samples[first].isCertain;
+        const ImVec2 from = placeOf(samples[first]), to = placeOf(samples[i]);
+        const bool isLast = i + 1 == samples.size() || samples[i + 1].isCertain != samples[i].isCertain;
+        if (isLast || std::hypot(to.x - from.x, to.y - from.y) > kLeastLine) { // many lie in one place
+            list.AddLine(from, to, isCertain ? IM_COL32(120, 220, 140, 255) : IM_COL32(120, 220, 140, 90),
+                         0.014f * height);
+            first = i;
+        }
     }
     ImGui::TextDisabled("f to %.3g / sr (dim: uncertain)", largest);
 }

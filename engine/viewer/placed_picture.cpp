@@ -2,19 +2,19 @@
 
 #include <cmath>
 
+#include <glm/common.hpp>
+
 #include "engine/gpu/buffer.h"
 
 namespace nacre {
 namespace {
 
-constexpr ImageUse kAcquired{VK_IMAGE_LAYOUT_UNDEFINED, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, VK_ACCESS_2_NONE};
 constexpr ImageUse kFilled{VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT,
                            VK_ACCESS_2_TRANSFER_WRITE_BIT};
-constexpr VkImageSubresourceRange kColour{.aspectMask = VK_IMAGE_ASPECT_COLOR_BIT, .levelCount = 1, .layerCount = 1};
 constexpr VkImageSubresourceLayers kLayer{.aspectMask = VK_IMAGE_ASPECT_COLOR_BIT, .layerCount = 1};
 
 // Texel by texel, which is several times as quick as a blit.
-void recordCopy(VkCommandBuffer commands, const WindowImage& window, const Texture& texture, const BlitRegion& region)
+void recordCopy(VkCommandBuffer commands, const Texture& window, const Texture& texture, const BlitRegion& region)
 {
     const glm::ivec2 size = region.fromEnd - region.from;
     const VkImageCopy copy{.srcSubresource = kLayer,
@@ -22,16 +22,16 @@ void recordCopy(VkCommandBuffer commands, const WindowImage& window, const Textu
                            .dstSubresource = kLayer,
                            .dstOffset = {region.to.x, region.to.y, 0},
                            .extent = {static_cast<uint32_t>(size.x), static_cast<uint32_t>(size.y), 1}};
-    vkCmdCopyImage(commands, texture.image(), kCopiedFrom.layout, window.image, kFilled.layout, 1, &copy);
+    vkCmdCopyImage(commands, texture.image(), kCopiedFrom.layout, window.image(), kFilled.layout, 1, &copy);
 }
 
-void recordPicture(VkCommandBuffer commands, const WindowImage& window, const PlacedPicture& picture)
+void recordPicture(VkCommandBuffer commands, const Texture& window, const PlacedPicture& picture)
 {
     const VkExtent3D extent = picture.texture->extent();
     std::vector<VkImageBlit> blits;
     for (const BlitRegion& r : blitRegions({extent.width, extent.height}, picture.firstColumn, picture.endColumn,
                                            picture.framing, picture.area)) {
-        if (window.format == picture.texture->format() && r.toEnd - r.to == r.fromEnd - r.from) {
+        if (window.format() == picture.texture->format() && r.toEnd - r.to == r.fromEnd - r.from) {
             recordCopy(commands, window, *picture.texture, r);
             continue;
         }
@@ -43,7 +43,7 @@ void recordPicture(VkCommandBuffer commands, const WindowImage& window, const Pl
     if (!blits.empty()) {
         // Photographs and verdicts, magnified: single pixels stay what they are.
         const VkFilter filter = picture.framing.zoom >= 1 ? VK_FILTER_NEAREST : VK_FILTER_LINEAR;
-        vkCmdBlitImage(commands, picture.texture->image(), kCopiedFrom.layout, window.image, kFilled.layout,
+        vkCmdBlitImage(commands, picture.texture->image(), kCopiedFrom.layout, window.image(), kFilled.layout,
                        static_cast<uint32_t>(blits.size()), blits.data(), filter);
     }
 }
@@ -86,17 +86,25 @@ PlacedPicture placedPicture(const Texture& texture, const Area& place, const Are
             .area = area};
 }
 
-void recordPictures(VkCommandBuffer commands, const WindowImage& window, std::span<const PlacedPicture> pictures,
-                    const glm::vec3& background)
+PixelBox boxOf(const PlacedPicture& picture)
 {
-    imageBarrier(commands, window.image, kAcquired, kFilled);
-    const VkClearColorValue colour{{background.r, background.g, background.b, 1}};
-    vkCmdClearColorImage(commands, window.image, kFilled.layout, &colour, 1, &kColour);
-    for (const PlacedPicture& picture : pictures) {
-        imageBarrier(commands, window.image, kFilled, kFilled); // one after the other
-        recordPicture(commands, window, picture);
+    const VkExtent3D extent = picture.texture->extent();
+    PixelBox box;
+    for (const BlitRegion& r : blitRegions({extent.width, extent.height}, picture.firstColumn, picture.endColumn,
+                                           picture.framing, picture.area)) {
+        box = box.isEmpty() ? PixelBox{r.to, r.toEnd} : PixelBox{glm::min(box.low, r.to), glm::max(box.high, r.toEnd)};
     }
-    imageBarrier(commands, window.image, kFilled, kDrawnTo);
+    return box;
+}
+
+void recordPictures(VkCommandBuffer commands, const Texture& target, std::span<const PlacedPicture> pictures)
+{
+    imageBarrier(commands, target.image(), kDrawnTo, kFilled);
+    for (const PlacedPicture& picture : pictures) {
+        imageBarrier(commands, target.image(), kFilled, kFilled); // one after the other
+        recordPicture(commands, target, picture);
+    }
+    imageBarrier(commands, target.image(), kFilled, kDrawnTo);
 }
 
 } // namespace nacre

@@ -3,6 +3,7 @@
 
 #include "engine/files/image.h"
 #include "engine/gpu/texture.h"
+#include "engine/view_state/changed_tiles.h"
 #include "engine/view_state/framing.h"
 
 namespace nacre {
@@ -22,14 +23,10 @@ struct PlacedPicture {
 // All of the texture stretched over `place`, as far as it lies in `area`.
 PlacedPicture placedPicture(const Texture& texture, const Area& place, const Area& area);
 
-struct WindowImage {
-    VkImage image;
-    VkFormat format;
-};
+// Where in the window it may be.
+PixelBox boxOf(const PlacedPicture& picture);
 
-// Clears the image to `background` (codes in [0,1]) and copies the pictures in order; from any state to
-// VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL.
-void recordPictures(VkCommandBuffer commands, const WindowImage& window, std::span<const PlacedPicture> pictures,
-                    const glm::vec3& background);
+// Copies the pictures in order to what is in kDrawnTo, before and after.
+void recordPictures(VkCommandBuffer commands, const Texture& target, std::span<const PlacedPicture> pictures);
 
 } // namespace nacre

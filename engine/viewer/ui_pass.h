@@ -1,11 +1,13 @@
 #pragma once
-#include <vector>
+#include <span>
 
+#include "engine/gpu/texture.h"
+#include "engine/view_state/changed_tiles.h"
 #include "engine/viewer/window.h"
 
 namespace nacre {
 
-// Dear ImGui drawn over what a swapchain's image holds already. Its version 1.86 draws no textures but its font:
+// Dear ImGui drawn over what a picture of the window holds already. Its version 1.86 draws no textures but its font:
 // pictures among the panels are copied below it (see placed_picture.h).
 class UiPass {
 public:
@@ -19,20 +21,21 @@ public:
     void begin();
     void end();
 
-    // The image must be in VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL; it ends in the one for presenting.
-    void record(VkCommandBuffer commands, const Swapchain& swapchain, size_t image);
+    // What the frame draws, in pixels of the window.
+    void addLooks(ChangedTiles& tiles) const;
+    // The frame, where it lies in one of the boxes; once a frame. The target is in kDrawnTo.
+    void record(VkCommandBuffer commands, const Texture& target, std::span<const PixelBox> boxes);
 
     float scale() const { return scale_; }
 
 private:
-    void makeFramebuffers(const Swapchain& swapchain);
+    void makeFramebuffer(const Texture& target);
 
     const Context& context_;
     float scale_ = 1;
     Owned<VkRenderPass, vkDestroyRenderPass> renderPass_;
     Owned<VkDescriptorPool, vkDestroyDescriptorPool> descriptors_;
-    std::vector<Owned<VkFramebuffer, vkDestroyFramebuffer>> framebuffers_; // of the swapchain's generation
-    size_t generation_ = 0;
+    Owned<VkFramebuffer, vkDestroyFramebuffer> framebuffer_; // of the last frame's target
 };
 
 } // namespace nacre

@@ -23,6 +23,7 @@
 #include "engine/viewer/ui_pass.h"
 #include "engine/viewer/view_pictures.h"
 #include "engine/viewer/window_layout.h"
+#include "engine/viewer/window_picture.h"
 
 namespace nacre {
 namespace {
@@ -65,7 +66,8 @@ private:
     ViewerOptions options_;
     Window window_;
     Swapchain swapchain_;
-    std::optional<UiPass> ui_; // in scaleOfUi
+    WindowPicture windowPicture_;
+    std::optional<UiPass> ui_;
     ViewPictures pictures_;
     LightBallPicture lightBall_;
     const Texture* ball_ = nullptr; // drawn in this frame
@@ -89,8 +91,8 @@ private:
 ViewerWindow::ViewerWindow(const Context& context, ViewState state, Choices choices, const SceneSource& source,
                            const ViewerOptions& options)
     : context_(context), source_(source), options_(options), window_("nacre", options.width, options.height),
-      swapchain_(context, window_), pictures_(context), lightBall_(context), comparison_(context),
-      input_(std::move(state), std::move(choices)), session_(input_.session),
+      swapchain_(context, window_), windowPicture_(context), pictures_(context), lightBall_(context),
+      comparison_(context), input_(std::move(state), std::move(choices)), session_(input_.session),
       loads_(source, session_.state, Window::wake)
 {
     session_.textScale = std::clamp(options.textScale, kLeastTextScale, kMostTextScale);
@@ -336,7 +338,8 @@ void ViewerWindow::describePanels(const Stage& stage)
         remark_ = "outlines are coarse while the object turns";
     } else if (pictures_.doLightsMove() && pictures_.renderer().isCoarse()) {
         remark_ = "highlights are coarse while a light moves";
-    } else if (!pictures_.isMoving() && !pace_.isDue() && !session_.playing) { // it takes as long as a frame: once nothing moves
+    } else if (!pictures_.isMoving() && !pace_.isDue() &&
+               !session_.playing) { // it takes as long as a frame: once nothing moves
         remark_ = describeUncertainShare(pictures_.uncertainShare());
     }
     if (showStatus(session_, loads_.busy(), stage, remark_)) {
@@ -363,8 +366,7 @@ void ViewerWindow::drawFrame()
     describePanels(stage);
     ui_->end();
     const bool wasShown = swapchain_.show([&](VkCommandBuffer commands, size_t image) {
-        recordPictures(commands, {swapchain_.image(image), swapchain_.format()}, placed_, kBackground);
-        ui_->record(commands, swapchain_, image);
+        windowPicture_.record(commands, swapchain_, image, placed_, kBackground, *ui_);
     });
     if (!wasShown) {
         swapchain_.rebuild();

@@ -148,17 +148,6 @@ VkExtent2D extentFor(const VkSurfaceCapabilitiesKHR& capabilities, const glm::iv
                        capabilities.maxImageExtent.height)};
 }
 
-Owned<VkImageView, vkDestroyImageView> viewOf(VkDevice device, VkImage image, VkFormat format)
-{
-    const VkImageViewCreateInfo info{
-        .sType = VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO,
-        .image = image,
-        .viewType = VK_IMAGE_VIEW_TYPE_2D,
-        .format = format,
-        .subresourceRange = {.aspectMask = VK_IMAGE_ASPECT_COLOR_BIT, .levelCount = 1, .layerCount = 1}};
-    return {device, created(vkCreateImageView, "vkCreateImageView", device, info)};
-}
-
 } // namespace
 
 Window::Window(const std::string& title, int width, int height)
@@ -299,7 +288,6 @@ void Swapchain::clear()
 {
     checkVulkan(vkDeviceWaitIdle(context_.device()), "vkDeviceWaitIdle");
     drawn_.clear();
-    views_.clear();
     images_.clear();
     if (swapchain_ != VK_NULL_HANDLE) {
         vkDestroySwapchainKHR(context_.device(), swapchain_, nullptr);
@@ -311,7 +299,6 @@ void Swapchain::clear()
 void Swapchain::rebuild()
 {
     clear();
-    ++generation_;
     const VkSurfaceCapabilitiesKHR capabilities = capabilitiesOf(context_.physicalDevice(), surface_);
     extent_ = extentFor(capabilities, window_.framebufferSize());
     if (isEmpty()) {
@@ -325,8 +312,7 @@ void Swapchain::rebuild()
                                         .imageColorSpace = VK_COLOR_SPACE_SRGB_NONLINEAR_KHR,
                                         .imageExtent = extent_,
                                         .imageArrayLayers = 1,
-                                        .imageUsage =
-                                            VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT,
+                                        .imageUsage = VK_IMAGE_USAGE_TRANSFER_DST_BIT,
                                         .preTransform = capabilities.currentTransform,
                                         .compositeAlpha = VK_COMPOSITE_ALPHA_OPAQUE_BIT_KHR,
                                         .presentMode = VK_PRESENT_MODE_FIFO_KHR,
@@ -337,8 +323,7 @@ void Swapchain::rebuild()
     images_.resize(count);
     checkVulkan(vkGetSwapchainImagesKHR(context_.device(), swapchain_, &count, images_.data()),
                 "vkGetSwapchainImagesKHR");
-    for (VkImage image : images_) {
-        views_.push_back(viewOf(context_.device(), image, format_));
+    while (drawn_.size() < images_.size()) {
         drawn_.push_back(makeSemaphore(context_.device()));
     }
 }

@@ -79,10 +79,8 @@ public:
     VkExtent2D extent() const { return extent_; }
     size_t imageCount() const { return images_.size(); }
     VkImage image(size_t i) const { return images_[i]; }
-    VkImageView view(size_t i) const { return views_[i].get(); }
-    size_t generation() const { return generation_; } // counts rebuilds
 
-    // Records into the next image (which is to end in VK_IMAGE_LAYOUT_PRESENT_SRC_KHR) and shows it. False where the
+    // Copies to the next image (which is to end in VK_IMAGE_LAYOUT_PRESENT_SRC_KHR) and shows it. False where the
     // swapchain has to be rebuilt first.
     bool show(const std::function<void(VkCommandBuffer, size_t image)>& record);
 
@@ -98,10 +96,8 @@ private:
     VkFormat format_ = VK_FORMAT_UNDEFINED;
     VkExtent2D extent_{0, 0};
     std::vector<VkImage> images_;
-    std::vector<Owned<VkImageView, vkDestroyImageView>> views_;
     Owned<VkSemaphore, vkDestroySemaphore> acquired_;
     std::vector<Owned<VkSemaphore, vkDestroySemaphore>> drawn_; // one an image
-    size_t generation_ = 0;
 };
 
 } // namespace nacre
