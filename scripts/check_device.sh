@@ -34,7 +34,7 @@ check_suites() { # PROGRAM FILTER
     done
 }
 check_suites "$tests" 'Ball*:CapturedMaterial*:Device*:Extremes*:FalseColour*:Frame*:*Golden.*:NearLight*:ResidualTest*:Shadow*:Zoom*'
-check_suites "${tests%system_tests}target_tests" 'MeshRaster*'
+check_suites "${tests%system_tests}target_tests" 'MeshRaster*:Relief*'
 "$tests" --gtest_filter='Kept/Golden.IsDrawn/*' --gtest_brief=1 2>&1 | sed -n 's/^  \([a-z_]*: [0-9].*\)/golden       \1/p'
 
 unset NACRE_VALIDATION # which takes time

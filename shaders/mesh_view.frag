@@ -1,6 +1,6 @@
 #version 460
 // What a distant camera sees of a mesh: the normal's x and y (z is above 0), the height in pixels, the part's label + 1;
-// or the normal alone, packed.
+// or the normal alone, packed. Of a relief the label is the number of its picture's pixel.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 #include "shared/ball.h"
@@ -44,8 +44,19 @@ vec3 mappedNormal(vec2 uv)
     return mix(top, bottom, share.y);
 }
 
+// Where nothing is seen: what is not known of a relief hides what lies behind.
+vec4 nothing()
+{
+    return kPacked ? vec4(1.0, 1.0, 0.0, 0.0) : vec4(0.0);
+}
+
 void main()
 {
+    bool isRelief = constants.columns > 0.0;
+    if (constants.label == 0.0 || (isRelief && !gl_FrontFacing)) {
+        seen = nothing();
+        return;
+    }
     vec3 facing = facingNormal();
     vec3 n = shadingNormal;
     if (kMapped) {
@@ -55,7 +66,8 @@ void main()
         n = m.x * shadingTangent.xyz + m.y * bitangent + m.z * shadingNormal;
     }
     // A sheet that is seen from behind, or normals that point inwards.
-    n = dot(shadingNormal, facing) < 0.0 ? -n : n;
+    n = dot(shadingNormal, facing) < 0.0 && !isRelief ? -n : n;
     n = dot(n, n) > 0.0 ? normalInSight(normalize(n)) : facing;
-    seen = kPacked ? vec4(packedFromNormal(n), 0.0, 0.0) : vec4(n.xy, height, constants.label);
+    float label = isRelief ? floor(mapPlace.y) * constants.columns + floor(mapPlace.x) + 1.0 : constants.label;
+    seen = kPacked ? vec4(packedFromNormal(n), 0.0, 0.0) : vec4(n.xy, height, label);
 }

@@ -32,10 +32,10 @@ void SceneOptions::addTo(CLI::App& command, const Help& help)
             help.light)
         ->allow_extra_args(false);
     add<std::string>(command, "--onto", &Description::onto, help.onto);
-    addParsed(
-        command, "--turn", &Description::turn, turnFromText,
-        "Turn of the mesh of --onto in degrees, YAW,PITCH[,ROLL]: front to the right, top nearer, counter-clockwise "
-        "(default: 0,0)")
+    addParsed(command, "--turn", &Description::turn, turnFromText,
+              "Turn of the mesh, or of the surface by its height, in degrees, YAW,PITCH[,ROLL]: front to the right, "
+              "top nearer, counter-clockwise "
+              "(default: 0,0)")
         ->group("Materials and shapes");
     addParsed(command, "--normal-y", &Description::normalY, normalYFromName,
               "Green of the normals of --onto: gl (up) or dx (down) [gl]")

@@ -31,9 +31,8 @@ bool dependsOnDisplay(Show show)
 
 Renderer::Renderer(const Context& context, VkDeviceSize cacheBytes)
     : context_(context), direct_(context), residualPass_(context), balls_(context, direct_, cacheBytes),
-      cacheBytes_(cacheBytes), own_(context, direct_), device_(context, direct_),
-      exposureFrame_(context, direct_), falseColours_(context),
-      nearer_(context, direct_), zoomFrame_(context)
+      cacheBytes_(cacheBytes), own_(context, direct_), device_(context, direct_), exposureFrame_(context, direct_),
+      falseColours_(context), nearer_(context, direct_), zoomFrame_(context)
 {
 }
 
@@ -82,7 +81,10 @@ void Renderer::setPixels(const Surface& pixels)
 {
     const bool isOtherSize =
         pixels.normals.width != surface_.normals.width || pixels.normals.height != surface_.normals.height;
+    const bool hadLayer = !surface_.residual.empty();
     surface_.normals = pixels.normals;
+    surface_.albedo = pixels.albedo;
+    surface_.residual = pixels.residual;
     surface_.labels = pixels.labels;
     surface_.height = pixels.height;
     surface_.horizon = pixels.horizon;
@@ -90,6 +92,10 @@ void Renderer::setPixels(const Surface& pixels)
     surface_.camera = pixels.camera;
     dropPixels();
     radiance_.reset();
+    if (hadLayer == surface_.residual.empty()) { // see ballsAreCodes
+        balls_.drop();
+        lightsHaveChanged();
+    }
     if (isOtherSize) {
         own_.dropPicture();
     }
@@ -482,8 +488,8 @@ Frame Renderer::render(const Scene& scene)
 
 VkDeviceSize Renderer::deviceBytes() const
 {
-    VkDeviceSize bytes = balls_.bytes() + groups_.bytes() + own_.bytes() + device_.bytes() + nearer_.bytes() + zoomFrame_.bytes() +
-                         exposureFrame_.bytes() + residualPass_.bytes();
+    VkDeviceSize bytes = balls_.bytes() + groups_.bytes() + own_.bytes() + device_.bytes() + nearer_.bytes() +
+                         zoomFrame_.bytes() + exposureFrame_.bytes() + residualPass_.bytes();
     for (const TableTexture& table : tables_) {
         bytes += table.texture.bytes();
     }

@@ -24,7 +24,8 @@ public:
 
     // `sizes`: measuredBallSize of each material, where they are known already; they take a while to measure.
     void setSurface(Surface surface, std::vector<BallSize> sizes = {});
-    // Other pixels of the same materials, without albedo factors and layers as the surface is: balls stay.
+    // Other pixels of the same materials, with albedo factors where the surface has them: balls stay, unless a residual
+    // layer comes or goes.
     void setPixels(const Surface& pixels);
     // Pixels that are on the device already, of all the picture or of the zoom's part of it, to be shown one for one:
     // pictures are of them until pixels, surface or zoom are set again. Only of what drawsFromDevice().
@@ -123,8 +124,8 @@ private:
     ResidualPass residualPass_;
     LitBalls balls_;
     VkDeviceSize cacheBytes_;
-    Canvas own_;                // of the surface
-    Canvas device_;             // of pixels that are on the device, in place of all others
+    Canvas own_;    // of the surface
+    Canvas device_; // of pixels that are on the device, in place of all others
     bool hasDevicePixels_ = false;
     DirectFrame exposureFrame_; // of exposurePixels_
     FalseColourFrame falseColours_;

@@ -20,6 +20,7 @@
 #include "engine/surface/object_places.h"
 #include "engine/target/mesh_file.h"
 #include "engine/target/mesh_raster.h"
+#include "engine/target/relief.h"
 
 namespace nacre {
 namespace fs = std::filesystem;
@@ -82,9 +83,13 @@ Surface loadMeasured(const SceneDescription& scene, const SceneInputs& inputs)
     return surface;
 }
 
-MeshViewOptions meshOptionsOf(const SceneDescription& scene)
+MeshViewOptions meshOptionsOf(const SceneDescription& scene, const Mesh& mesh)
 {
     MeshViewOptions options{.turn = scene.turn};
+    if (mesh.front) {
+        options.width = mesh.front->normals.width;
+        options.height = mesh.front->normals.height;
+    }
     if (scene.size) {
         options.width = scene.size->width;
         options.height = scene.size->height;
@@ -99,9 +104,17 @@ void requireMaterial(const Surface& measured, const fs::path& file)
     }
 }
 
+// Its pixels.
+std::shared_ptr<const Surface> frontOf(const Surface& surface)
+{
+    auto front = std::make_shared<Surface>(surface);
+    front->materials.clear();
+    return front;
+}
+
 // The measured one, or its first material on other normals; fitted into the size where given.
-Surface drawnSurfaceOf(const SceneDescription& scene, const SceneInputs& inputs, Surface measured,
-                       const Context& context)
+LoadedSurface drawnSurfaceOf(const SceneDescription& scene, const SceneInputs& inputs, Surface measured,
+                             const Context& context, bool canTurn)
 {
     std::vector<CapturedLight> captured = measured.lights;
     if (isMeshFile(scene.onto)) {
@@ -109,7 +122,7 @@ Surface drawnSurfaceOf(const SceneDescription& scene, const SceneInputs& inputs,
         Surface dressed;
         dressed.materials = {std::move(measured.materials.front())};
         dressed.lights = std::move(captured);
-        return dressed;
+        return {std::move(dressed), std::make_shared<const Mesh>(loadMesh(scene.onto))};
     }
     if (!scene.onto.empty()) {
         requireMaterial(measured, scene.surface);
@@ -122,12 +135,21 @@ Surface drawnSurfaceOf(const SceneDescription& scene, const SceneInputs& inputs,
             measured.castsShadows)) { // before pixels are repeated, which would make stairs of the height
         castShadows(measured, scene.onto.empty() ? scene.surface : scene.onto);
     }
+    std::shared_ptr<const Mesh> relief;
+    const bool hasHeight = !measured.height.values.empty();
+    if (scene.turn != Turn() && !hasHeight) {
+        throw Error(scene.onto.empty() ? scene.surface : scene.onto, "has no height, and cannot be turned",
+                    "an acquired surface, or a mesh to put the material onto (.obj, .ply, .gltf, .glb, .stl)");
+    }
+    if (hasHeight && (canTurn || scene.turn != Turn())) {
+        relief = std::make_shared<const Mesh>(reliefMesh(frontOf(measured)));
+    }
     if (scene.size) {
         requirePictureSize(context, scene.size->width, scene.size->height); // before memory for it is asked for
         measured = fittedSurface(measured, scene.size->width, scene.size->height);
     }
     measured.lights = std::move(captured);
-    return measured;
+    return {std::move(measured), std::move(relief)};
 }
 
 // The layer is of the captured surface from the front, and knows the lights about the captured ones.
@@ -182,8 +204,7 @@ void requireConsistent(const SceneDescription& scene)
     if (scene.normalY && scene.onto.empty()) {
         throw Error("", "normal-y has nothing to turn", "other normals to put the material onto", Error::kUsage);
     }
-    const bool isTurned = scene.turn != Turn() || scene.motion == LightMotion::object;
-    if (isTurned && !isMeshFile(scene.onto)) {
+    if (scene.motion == LightMotion::object && !isMeshFile(scene.onto)) {
         throw Error(scene.onto.empty() ? scene.surface : scene.onto, "cannot be turned",
                     "a mesh to put the material onto (.obj, .ply, .gltf, .glb, .stl)", Error::kUsage);
     }
@@ -207,36 +228,48 @@ void castShadows(Surface& surface, const std::filesystem::path& source)
     surface.horizon = horizonMap(surface.normals, heightInPicture(surface));
 }
 
-namespace {
-
-LoadedSurface dressedSurface(const SceneDescription& scene, const SceneInputs& inputs, Surface measured,
-                             const Context& context)
+LoadedSurface loadSurfaceOrMesh(const SceneDescription& scene, const SceneInputs& inputs, const Context& context,
+                                bool canTurn)
 {
-    LoadedSurface loaded;
-    if (isMeshFile(scene.onto)) {
-        loaded.mesh = std::make_shared<const Mesh>(loadMesh(scene.onto));
-    }
-    loaded.surface = drawnSurfaceOf(scene, inputs, std::move(measured), context);
-    return loaded;
-}
-
-} // namespace
-
-LoadedSurface loadSurfaceOrMesh(const SceneDescription& scene, const SceneInputs& inputs, const Context& context)
-{
-    return dressedSurface(scene, inputs, loadMeasured(scene, inputs), context);
+    return drawnSurfaceOf(scene, inputs, loadMeasured(scene, inputs), context, canTurn);
 }
 
 std::unique_ptr<MeshRaster> meshRasterFor(const Context& context, std::shared_ptr<const Mesh> mesh,
                                           const SceneDescription& scene)
 {
-    const MeshViewOptions options = meshOptionsOf(scene);
+    const MeshViewOptions options = meshOptionsOf(scene, *mesh);
     return std::make_unique<MeshRaster>(context, std::move(mesh), options.width, options.height);
 }
 
+namespace {
+
+// All but what does not lie in pixels, fitted into the scene's size.
+void takePixels(const Surface& from, const SceneDescription& scene, Surface& surface)
+{
+    Surface pixels = scene.size ? fittedSurface(from, scene.size->width, scene.size->height) : from;
+    pixels.materials = std::move(surface.materials);
+    pixels.lights = std::move(surface.lights);
+    surface = std::move(pixels);
+}
+
+} // namespace
+
 void drawMesh(MeshRaster& raster, const SceneDescription& scene, Surface& surface, bool isCoarse)
 {
-    Surface seen = raster.draw(fittedView(*raster.mesh(), meshOptionsOf(scene)), isCoarse);
+    const Mesh& mesh = *raster.mesh();
+    if (mesh.front && scene.turn == Turn()) {
+        takePixels(*mesh.front, scene, surface);
+        return;
+    }
+    Surface seen = raster.draw(fittedView(mesh, meshOptionsOf(scene, mesh)), isCoarse);
+    if (mesh.front) {
+        seen.castsShadows = mesh.front->castsShadows;
+        takePixels(seen, {}, surface);
+        if (scene.shadows.value_or(surface.castsShadows)) {
+            castShadows(surface, scene.surface);
+        }
+        return;
+    }
     surface.labels.assign(seen.labels.size(), Surface::kNoMaterial);
     for (size_t i = 0; i < seen.labels.size(); ++i) {
         surface.labels[i] = seen.normals.confidence[i] > 0 ? 0 : Surface::kNoMaterial;
@@ -252,7 +285,7 @@ void drawMesh(MeshRaster& raster, const SceneDescription& scene, Surface& surfac
 std::shared_ptr<const PixelTextures> drawMeshPixels(MeshRaster& raster, const SceneDescription& scene,
                                                     const std::optional<Zoom>& zoom)
 {
-    const MeshView view = fittedView(*raster.mesh(), meshOptionsOf(scene));
+    const MeshView view = fittedView(*raster.mesh(), meshOptionsOf(scene, *raster.mesh()));
     return raster.drawPixels(zoom ? zoomedView(view, *zoom) : view);
 }
 
@@ -269,7 +302,7 @@ void drawMeshOnce(const SceneDescription& scene, const Context& context, LoadedS
 
 Surface loadDrawnSurface(const SceneDescription& scene, const SceneInputs& inputs, const Context& context)
 {
-    LoadedSurface loaded = loadSurfaceOrMesh(scene, inputs, context);
+    LoadedSurface loaded = loadSurfaceOrMesh(scene, inputs, context, false);
     drawMeshOnce(scene, context, loaded);
     return std::move(loaded.surface);
 }
@@ -295,7 +328,7 @@ Scene loadScene(const SceneDescription& description, const SceneInputs& inputs, 
     scene.view = viewDirectionOf(description);
     Surface measured = loadMeasured(description, inputs);
     const bool hasResidual = !measured.residual.empty();
-    LoadedSurface loaded = dressedSurface(description, inputs, std::move(measured), context);
+    LoadedSurface loaded = drawnSurfaceOf(description, inputs, std::move(measured), context, false);
     drawMeshOnce(description, context, loaded);
     scene.surface = std::move(loaded.surface);
     requireResidual(scene.surface, scene.view, description.residual);

@@ -38,17 +38,20 @@ struct SceneInputs {
     std::function<Surface(const std::string& specification, const PictureSize& size)> makeShape{};
 };
 
-// A surface to draw. Of one on a mesh the pixels are to be drawn by drawMesh, at any turn.
+// A surface to draw. Of one on a mesh the pixels are to be drawn by drawMesh, at any turn; of a relief only a turned
+// one's.
 struct LoadedSurface {
     Surface surface;
     std::shared_ptr<const Mesh> mesh; // null: the surface has its pixels
 };
 
-// As loadDrawnSurface, without drawing a mesh.
-LoadedSurface loadSurfaceOrMesh(const SceneDescription& scene, const SceneInputs& inputs, const Context& context);
+// As loadDrawnSurface, without drawing a mesh; with `canTurn` of a surface that has a height its relief as well.
+LoadedSurface loadSurfaceOrMesh(const SceneDescription& scene, const SceneInputs& inputs, const Context& context,
+                                bool canTurn);
 
 // The surface's pixels: normals, heights and, of its first material, labels of the mesh at the scene's turn and size;
-// with horizons where it is to cast shadows. Throws Error.
+// with horizons where it is to cast shadows. Of a relief, all that its picture has; turned, without a residual layer.
+// Throws Error.
 void drawMesh(MeshRaster& raster, const SceneDescription& scene, Surface& surface, bool isCoarse = false);
 
 // MeshRaster::drawPixels of the same mesh at the same turn: all of the picture, or the zoom's part of it.

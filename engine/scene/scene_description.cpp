@@ -290,7 +290,7 @@ void resolveCaptured(SceneDescription& scene, std::span<const CapturedLight> cap
 std::optional<size_t> shownPhotograph(const SceneDescription& scene)
 {
     const bool isAlone = scene.lights.size() == 1 && scene.environment.empty();
-    const bool isOwn = !scene.surface.empty() && scene.material.empty() && scene.onto.empty();
+    const bool isOwn = !scene.surface.empty() && scene.material.empty() && scene.onto.empty() && scene.turn == Turn();
     if (!isAlone || !isOwn || scene.lights[0].captured < 1) {
         return {};
     }

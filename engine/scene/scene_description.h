@@ -34,7 +34,7 @@ struct SceneDescription {
     std::filesystem::path surface; // or
     std::string material;          // the specification of another, on `onto`
     std::filesystem::path onto;    // other normals, or a mesh
-    Turn turn;                     // of the mesh
+    Turn turn;                     // of the mesh, or of the surface by its height
     std::optional<NormalY> normalY;
     std::optional<PictureSize> size; // that the surface is fitted into
     std::optional<bool> shadows;     // cast by the surface's height

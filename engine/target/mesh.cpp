@@ -9,6 +9,7 @@
 #include <glm/matrix.hpp>
 
 #include "engine/files/error.h"
+#include "engine/target/relief.h"
 
 namespace nacre {
 namespace {
@@ -52,6 +53,9 @@ MeshView turnedView(const Mesh& mesh, MeshView view, const Turn& turn)
 
 MeshView fittedView(const Mesh& mesh, const MeshViewOptions& options)
 {
+    if (mesh.front) {
+        return reliefView(mesh, options);
+    }
     MeshView view{options.width, options.height, turnOf(options)};
     glm::dvec3 lowest(std::numeric_limits<double>::max()), highest(-lowest);
     for (const uint32_t index : mesh.indices) {

@@ -15,6 +15,9 @@
 
 namespace nacre {
 
+// Within a pixel the height of one surface changes by less pixels than this, up to 79 degrees.
+inline constexpr float kSameSurface = 5;
+
 // Triangles of one mesh and material of a file.
 struct MeshPart {
     std::string name;
@@ -22,16 +25,19 @@ struct MeshPart {
     size_t indexCount = 0;
     bool hasUvs = false;
     std::shared_ptr<const NormalMap> normalMap{}; // tangent space, green up; null = none
+    bool isSeen = true;                           // else it only hides what lies behind
 };
 
 // Vertices in the file's own axes (x right, y up, z towards the viewer where nothing else is asked for).
 struct Mesh {
     std::vector<glm::vec3> positions;
     std::vector<glm::vec3> normals;  // unit, or 0 where there is none
-    std::vector<glm::vec2> uvs;      // v up; empty, or one a vertex
+    std::vector<glm::vec2> uvs;      // v up; empty, or one a vertex; of a relief, pixels of its picture
     std::vector<glm::vec4> tangents; // xyz unit or 0, w = handedness of the bitangent; empty, or one a vertex
     std::vector<uint32_t> indices;   // three a triangle
     std::vector<MeshPart> parts;     // in the order of their indices
+    // Whose relief it is (relief.h), whose back is not known and not seen; null: no surface's.
+    std::shared_ptr<const Surface> front{};
 
     size_t degenerateTriangles = 0; // without an area: left out
     size_t notFiniteTriangles = 0;  // with a vertex that is no number: left out

@@ -93,12 +93,12 @@ void MeshPasses::draw(const MeshView& view)
     for (size_t part = 0; part < mesh_.parts.size(); ++part) {
         const MeshPart& drawn = mesh_.parts[part];
         const Texture* map = normalMapOf(drawn);
-        const size_t label = std::min<size_t>(part, Surface::kNoMaterial - 1);
+        const size_t label = drawn.isSeen ? std::min<size_t>(part, Surface::kNoMaterial - 1) + 1 : 0;
         for (size_t first = 0; first < drawn.indexCount; first += 3 * kTrianglesPerUpload) {
             const size_t count = std::min(3 * kTrianglesPerUpload, drawn.indexCount - first);
             fillVertices(drawn.firstIndex + first, count);
             context_.run([&](VkCommandBuffer commands) {
-                record(commands, static_cast<uint32_t>(count), static_cast<float>(label + 1), map);
+                record(commands, static_cast<uint32_t>(count), static_cast<float>(label), map);
             });
             isEmpty_ = false;
         }
@@ -131,6 +131,8 @@ void MeshPasses::fillVertices(size_t firstIndex, size_t count)
             if (!mesh_.tangents.empty()) {
                 const glm::vec4& tangent = mesh_.tangents[v];
                 vertex.tangent = glm::vec4(turn * glm::vec3(tangent), tangent.w);
+            }
+            if (!mesh_.uvs.empty()) {
                 vertex.uv = mesh_.uvs[v];
             }
             vertices[i] = vertex;
@@ -179,7 +181,8 @@ void MeshPasses::record(VkCommandBuffer commands, uint32_t vertexCount, float la
                                   static_cast<float>(view_.nearest) + 0.0005f * reach,
                                   1.001f * reach,
                                   static_cast<float>(samplesPerSide_),
-                                  label};
+                                  label,
+                                  mesh_.front ? static_cast<float>(mesh_.front->normals.width) : 0.0f};
     const Pipeline& pipeline = pipelines_.with({map != nullptr, draws_ == Draws::packedNormals});
     beginDrawing(commands);
     vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline.get());

@@ -14,16 +14,23 @@
 namespace nacre {
 namespace {
 
-// Within a pixel the height of one surface changes by less, up to 79 degrees; what is farther behind is another one,
-// and the mean with it would be a normal that neither has.
-constexpr float kSameSurface = 5; // pixels
-
 glm::vec3 normalOfSample(const glm::vec4& sample)
 {
     return {sample.x, sample.y, std::sqrt(std::max(0.0f, 1 - sample.x * sample.x - sample.y * sample.y))};
 }
 
-void resolvePixel(const glm::vec4* first, size_t pitch, int samplesPerSide, size_t pixel, Surface& surface)
+// What the relief's picture has there beside the normal.
+void takeFrom(const Surface& front, size_t from, size_t pixel, Surface& surface)
+{
+    surface.normals.confidence[pixel] = front.normals.confidence[from];
+    surface.labels[pixel] = front.labels[from];
+    for (size_t c = 0; c < 3 && !front.albedo.values.empty(); ++c) {
+        surface.albedo.values[3 * pixel + c] = front.albedo.values[3 * from + c];
+    }
+}
+
+void resolvePixel(const glm::vec4* first, size_t pitch, int samplesPerSide, size_t pixel, const Surface* front,
+                  Surface& surface)
 {
     const glm::vec4* nearest = nullptr;
     int covered = 0;
@@ -41,7 +48,9 @@ void resolvePixel(const glm::vec4* first, size_t pitch, int samplesPerSide, size
     float height = 0, count = 0;
     for (int k = 0; k < samplesPerSide * samplesPerSide; ++k) {
         const glm::vec4& sample = first[k / samplesPerSide * pitch + k % samplesPerSide];
-        if (sample.w == nearest->w && nearest->z - sample.z <= kSameSurface) {
+        const bool isSamePart = front ? sample.w > 0 : sample.w == nearest->w;
+        // What is farther behind is another surface, and the mean with it would be a normal that neither has.
+        if (isSamePart && nearest->z - sample.z <= kSameSurface) {
             normal += normalOfSample(sample);
             height += sample.z;
             ++count;
@@ -50,23 +59,32 @@ void resolvePixel(const glm::vec4* first, size_t pitch, int samplesPerSide, size
     surface.normals.normals[pixel] = glm::normalize(normal);
     surface.normals.confidence[pixel] = 1;
     surface.height.values[pixel] = height / count;
-    surface.labels[pixel] = static_cast<uint8_t>(nearest->w - 0.5f);
+    if (front) {
+        takeFrom(*front, static_cast<size_t>(nearest->w - 0.5f), pixel, surface);
+    } else {
+        surface.labels[pixel] = static_cast<uint8_t>(nearest->w - 0.5f);
+    }
 }
 
 // Samples of shaders/mesh_view.frag (x, y of the normal, height, label + 1; 0 = nothing), samplesPerSide each way in a
 // pixel, to normals, heights and labels. A pixel takes the label of its nearest sample and the mean of the samples that
-// lie on the same surface; it has data where at least half of it is covered.
-Surface resolvedSurface(const glm::vec4* samples, int width, int height, int samplesPerSide)
+// lie on the same surface; it has data where at least half of it is covered. Of the relief of `front`, unless null,
+// each has what its nearest sample's pixel has there.
+Surface resolvedSurface(const glm::vec4* samples, int width, int height, int samplesPerSide, const Surface* front)
 {
     Surface surface;
     surface.normals = NormalMap(width, height);
     surface.height = Image(width, height, 1);
     surface.labels.assign(surface.height.pixelCount(), Surface::kNoMaterial);
+    if (front && !front->albedo.values.empty()) {
+        surface.albedo = Image(width, height, 3, 1.0f);
+    }
     const size_t pitch = static_cast<size_t>(width) * samplesPerSide;
     parallelFor(height, 32, 0, [&](size_t top, size_t bottom) {
         for (size_t y = top; y < bottom; ++y) {
             for (size_t x = 0; x < static_cast<size_t>(width); ++x) {
-                resolvePixel(samples + (y * pitch + x) * samplesPerSide, pitch, samplesPerSide, y * width + x, surface);
+                resolvePixel(samples + (y * pitch + x) * samplesPerSide, pitch, samplesPerSide, y * width + x, front,
+                             surface);
             }
         }
     });
@@ -113,7 +131,8 @@ VkRect2D boundsOf(const std::array<glm::vec3, 2>& box, const MeshView& view)
 class MeshRaster::Samples {
 public:
     Samples(const Context& context, const Mesh& mesh, int width, int height, int samplesPerSide)
-        : context_(context), target_(makeTarget(context, extentOf(width, height, samplesPerSide), kFloatFormat)),
+        : context_(context), front_(mesh.front.get()),
+          target_(makeTarget(context, extentOf(width, height, samplesPerSide), kFloatFormat)),
           passes_(context, mesh, MeshPasses::Draws::samples, target_, samplesPerSide, kCopiedFrom),
           readback_(context, VkDeviceSize{target_.extent().width} * target_.extent().height * sizeof(glm::vec4),
                     VK_BUFFER_USAGE_TRANSFER_DST_BIT)
@@ -130,11 +149,12 @@ public:
             makeVisibleToHost(commands, readback_);
         });
         return resolvedSurface(static_cast<const glm::vec4*>(readback_.mapped()), view.width, view.height,
-                               passes_.samplesPerSide());
+                               passes_.samplesPerSide(), front_);
     }
 
 private:
     const Context& context_;
+    const Surface* front_;
     Texture target_;
     MeshPasses passes_;
     Buffer readback_;
@@ -184,6 +204,9 @@ Surface MeshRaster::draw(const MeshView& view, bool isCoarse)
                                             isCoarse ? 1 : samplesPerSideFor(context_, width_, height_));
     }
     Surface surface = samples->draw(view);
+    if (mesh_->front) {
+        return surface;
+    }
     for (const MeshPart& part : mesh_->parts) {
         if (surface.parts.size() < Surface::kNoMaterial) {
             surface.parts.push_back(part.name);

@@ -22,7 +22,8 @@ public:
     ~MeshRaster();
 
     const std::shared_ptr<const Mesh>& mesh() const { return mesh_; }
-    // Of that size. Coarse: by one sample a pixel, while the mesh moves.
+    // Of that size; of a relief, with the labels and albedo factors of its picture. Coarse: by one sample a pixel,
+    // while the mesh moves.
     Surface draw(const MeshView& view, bool isCoarse = false);
     // The same by one sample a pixel, in a picture of any size, without leaving the device: pixels of a plain surface,
     // compact ones, drawn over by the next call.

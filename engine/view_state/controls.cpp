@@ -317,7 +317,7 @@ void pushLight(Session& session, float steps)
 void turnObject(Session& session, const glm::vec2& moved)
 {
     if (!session.canTurn) {
-        session.message = "this shape has no mesh: only meshes (.obj, .ply, .gltf, .glb, .stl) can be turned";
+        session.message = "this shape has no height: only meshes, and surfaces with a height, can be turned";
         return;
     }
     Turn& turn = session.state.turn;

@@ -42,7 +42,7 @@ constexpr std::pair<const char*, const char*> kMouse[] = {
     {"right drag", "move the chosen light, anywhere"},
     {"drag", "move the picture"},
     {"wheel", "zoom"},
-    {"Shift or middle drag", "turn a mesh"},
+    {"Shift or middle drag", "turn the object"},
     {"double click", "fit the picture; on a value, type it"},
     {"drop a file", "surface, material, normal map, environment"}};
 

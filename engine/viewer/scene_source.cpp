@@ -10,7 +10,7 @@ namespace {
 std::shared_ptr<DrawnSurface> drawnSurface(const SceneSource& source, const ViewState& scene)
 {
     auto drawn = std::make_shared<DrawnSurface>();
-    LoadedSurface loaded = loadSurfaceOrMesh(scene, source.inputs, source.context);
+    LoadedSurface loaded = loadSurfaceOrMesh(scene, source.inputs, source.context, true);
     drawn->surface = std::move(loaded.surface);
     drawn->mesh = std::move(loaded.mesh);
     for (const Material& material : drawn->surface.materials) {

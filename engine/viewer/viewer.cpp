@@ -54,6 +54,7 @@ private:
     void applyState();
     void drawFrame();
     void drawPictures();
+    const Photographs* photographs() const;
     std::optional<SeenPart> seenPart() const;
     void placePicture(const Stage& stage);
     void describePanels(const Stage& stage);
@@ -269,6 +270,12 @@ void ViewerWindow::applyState()
     pictures_.apply(session_.state, view_, input_.choices.captured);
 }
 
+// Of the pixels that are shown, if they are at hand.
+const Photographs* ViewerWindow::photographs() const
+{
+    return session_.state.onto.empty() && session_.state.turn == Turn() ? loads_.photographs() : nullptr;
+}
+
 // None where pictures are shown as they are: photographs and what is judged or compared pixel by pixel.
 std::optional<SeenPart> ViewerWindow::seenPart() const
 {
@@ -288,10 +295,11 @@ void ViewerWindow::drawPictures()
     seen_ = seenPart();
     pictures_.setZoom(seen_ ? std::optional(seen_->zoom) : std::nullopt);
     applyState();
+    session_.hasResidual = hasResidualFrom(pictures_.scene().main->surface, view_); // a turned surface has none
     pictures_.draw();
     if (!pictures_.scene().main->surface.materials.empty()) {
         ball_ = &lightBall_.draw(pictures_, layout().ballSize());
-        comparison_.update(session_, loads_.photographs(), pictures_);
+        comparison_.update(session_, photographs(), pictures_);
     }
 }
 
@@ -321,7 +329,7 @@ void ViewerWindow::describePanels(const Stage& stage)
                              .thumbnails = thumbnails_,
                              .ball = drawn->surface.materials.empty() ? nullptr : ball_,
                              .drawn = drawn,
-                             .photographs = session_.state.onto.empty() ? loads_.photographs() : nullptr,
+                             .photographs = photographs(),
                              .verdicts = pictures_.verdicts(),
                              .pixel = pictures_.isTurning() ? std::nullopt : input_.pixel,
                              .comparisonFigures = comparison_.figures(),

@@ -20,7 +20,8 @@ struct MeshConstants {
     float nearest;         // height, pixels
     float heightRange;     // nearest to farthest, pixels, above 0
     float samplesPerPixel; // along a side
-    float label;           // of the part, plus 1
+    float label;           // of the part, plus 1; 0: what is drawn is not seen, and hides
+    float columns;         // of the picture whose relief it is; 0: it is none's
 };
 
 // A camera that looks along -z sees no normal that faces away: what interpolation or a normal map turns beyond the rim

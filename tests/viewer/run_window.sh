@@ -49,6 +49,13 @@ check "Ctrl+Shift+Z does it again" cmp "$dragged" "$shot"
 press r; screenshot
 check "R goes back" cmp "$first" "$shot"
 
+drag 2 600 300 640 320 680 310; screenshot
+check "a middle drag turns a surface" holds "$shot" '"turn"'
+check_later "as without a window" reproduces "$shot"
+check "the screen shows it turned" screen_shows "$shot" "$picture"
+press r; screenshot
+check "turned back it has the same bytes" cmp "$first" "$shot"
+
 press e; screenshot; brighter=$shot
 check "E exposes up" differs "$first" "$shot"
 press shift+e; screenshot

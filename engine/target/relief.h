@@ -1,0 +1,15 @@
+#pragma once
+#include "engine/target/mesh.h"
+
+namespace nacre {
+
+// The height of `front` between its pixels (px, in px; x right, y up about the picture's middle), with its normals:
+// what is known of the object, seen from its front alone. Where neighbours differ by a step, what joins them is not
+// known, and is a part that hides what lies behind it without being seen.
+Mesh reliefMesh(std::shared_ptr<const Surface> front);
+
+// As it stands in its own picture, fitted into the size; turned about the middle of what is known, as large as it was
+// unless it would not fit.
+MeshView reliefView(const Mesh& relief, const MeshViewOptions& options);
+
+} // namespace nacre
