@@ -109,7 +109,7 @@ void Renderer::setDevicePixels(std::shared_ptr<const PixelTextures> pixels)
 
 bool Renderer::drawsFromDevice(std::span<const Light> lights) const
 {
-    return plain_ && surface_.residual.empty() && surface_.horizon.empty() && !surface_.camera && !anyIsNear(lights);
+    return plain_ && surface_.residual.empty() && !surface_.camera && !anyIsNear(lights);
 }
 
 void Renderer::setZoom(const std::optional<Zoom>& zoom)
@@ -267,7 +267,7 @@ std::string Renderer::whyDirect()
     if (anyIsNear(lights_)) {
         return "near lights differ between pixels of one normal";
     }
-    if (!surface_.horizon.empty()) {
+    if (!hasDevicePixels_ && !surface_.horizon.empty()) {
         return "cast shadows differ between pixels of one normal";
     }
     const std::vector<BallSize> sizes = LitBalls::sizesWhile(lightsMove_, ballSizes());

@@ -265,7 +265,7 @@ void drawMesh(MeshRaster& raster, const SceneDescription& scene, Surface& surfac
     if (mesh.front) {
         seen.castsShadows = mesh.front->castsShadows;
         takePixels(seen, {}, surface);
-        if (scene.shadows.value_or(surface.castsShadows)) {
+        if (!isCoarse && scene.shadows.value_or(surface.castsShadows)) {
             castShadows(surface, scene.surface);
         }
         return;
@@ -277,7 +277,7 @@ void drawMesh(MeshRaster& raster, const SceneDescription& scene, Surface& surfac
     surface.normals = std::move(seen.normals);
     surface.height = std::move(seen.height);
     surface.horizon = {};
-    if (scene.shadows.value_or(false)) {
+    if (!isCoarse && scene.shadows.value_or(false)) {
         castShadows(surface, scene.onto);
     }
 }

@@ -50,8 +50,8 @@ LoadedSurface loadSurfaceOrMesh(const SceneDescription& scene, const SceneInputs
                                 bool canTurn);
 
 // The surface's pixels: normals, heights and, of its first material, labels of the mesh at the scene's turn and size;
-// with horizons where it is to cast shadows. Of a relief, all that its picture has; turned, without a residual layer.
-// Throws Error.
+// with horizons where it is to cast shadows, unless it is coarse. Of a relief, all that its picture has; turned,
+// without a residual layer. Throws Error.
 void drawMesh(MeshRaster& raster, const SceneDescription& scene, Surface& surface, bool isCoarse = false);
 
 // MeshRaster::drawPixels of the same mesh at the same turn: all of the picture, or the zoom's part of it.

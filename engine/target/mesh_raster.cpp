@@ -10,6 +10,7 @@
 
 #include "engine/files/parallel_for.h"
 #include "engine/target/mesh_passes.h"
+#include "engine/target/relief.h"
 
 namespace nacre {
 namespace {
@@ -200,7 +201,7 @@ Surface MeshRaster::draw(const MeshView& view, bool isCoarse)
 {
     std::unique_ptr<Samples>& samples = isCoarse ? coarse_ : samples_;
     if (!samples) {
-        samples = std::make_unique<Samples>(context_, *mesh_, width_, height_,
+        samples = std::make_unique<Samples>(context_, isCoarse ? coarseMesh() : *mesh_, width_, height_,
                                             isCoarse ? 1 : samplesPerSideFor(context_, width_, height_));
     }
     Surface surface = samples->draw(view);
@@ -215,11 +216,19 @@ Surface MeshRaster::draw(const MeshView& view, bool isCoarse)
     return surface;
 }
 
+const Mesh& MeshRaster::coarseMesh()
+{
+    if (!coarseMesh_) {
+        coarseMesh_ = mesh_->front ? coarseRelief(mesh_) : mesh_;
+    }
+    return *coarseMesh_;
+}
+
 std::shared_ptr<const PixelTextures> MeshRaster::drawPixels(const MeshView& view)
 {
     const VkExtent3D wanted = extentOf(view.width, view.height, 1);
     if (!pixels_ || pixels_->extent().width != wanted.width || pixels_->extent().height != wanted.height) {
-        pixels_ = std::make_unique<Pixels>(context_, *mesh_, view.width, view.height);
+        pixels_ = std::make_unique<Pixels>(context_, coarseMesh(), view.width, view.height);
     }
     return pixels_->draw(view, box_);
 }

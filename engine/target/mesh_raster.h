@@ -32,8 +32,11 @@ public:
 private:
     class Samples;
     class Pixels;
+    const Mesh& coarseMesh();
+
     const Context& context_;
     std::shared_ptr<const Mesh> mesh_;
+    std::shared_ptr<const Mesh> coarseMesh_; // once it is needed
     int width_, height_;
     std::array<glm::vec3, 2> box_; // lowest and highest of the mesh's axes
     std::unique_ptr<Samples> samples_, coarse_;

@@ -11,41 +11,44 @@
 namespace nacre {
 namespace {
 
-bool isStep(const Image& height, const std::array<uint32_t, 3>& corners)
+constexpr size_t kCoarseTriangles = 40'000; // some of lavapipe's milliseconds
+
+bool isStep(const Mesh& mesh, const std::array<uint32_t, 3>& corners, int stride)
 {
     const auto [low, high] =
-        std::minmax({height.values[corners[0]], height.values[corners[1]], height.values[corners[2]]});
-    return high - low > kSameSurface;
+        std::minmax({mesh.positions[corners[0]].z, mesh.positions[corners[1]].z, mesh.positions[corners[2]].z});
+    return high - low > kSameSurface * static_cast<float>(stride);
 }
 
 } // namespace
 
-Mesh reliefMesh(std::shared_ptr<const Surface> front)
+Mesh reliefMesh(std::shared_ptr<const Surface> front, int stride)
 {
     const NormalMap& normals = front->normals;
-    const Image& height = front->height;
+    const int columns = (normals.width + stride - 1) / stride, rows = (normals.height + stride - 1) / stride;
     Mesh mesh;
-    const int width = normals.width, rows = normals.height;
+    std::vector<uint8_t> isKnown;
     for (int y = 0; y < rows; ++y) {
-        for (int x = 0; x < width; ++x) {
-            const size_t i = normals.index(x, y);
-            const glm::vec2 at(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f);
-            mesh.positions.emplace_back(at.x - 0.5f * static_cast<float>(width), 0.5f * static_cast<float>(rows) - at.y,
-                                        height.values[i]);
+        for (int x = 0; x < columns; ++x) {
+            const size_t i = normals.index(stride * x, stride * y);
+            const glm::vec2 at(static_cast<float>(stride * x) + 0.5f, static_cast<float>(stride * y) + 0.5f);
+            mesh.positions.emplace_back(at.x - 0.5f * static_cast<float>(normals.width),
+                                        0.5f * static_cast<float>(normals.height) - at.y, front->height.values[i]);
             mesh.normals.push_back(normals.normals[i]);
             mesh.uvs.push_back(at);
+            isKnown.push_back(normals.confidence[i] > 0);
         }
     }
     std::vector<uint32_t> steps;
     const auto add = [&](const std::array<uint32_t, 3>& corners) {
-        if (std::all_of(corners.begin(), corners.end(), [&](uint32_t i) { return normals.confidence[i] > 0; })) {
-            std::vector<uint32_t>& indices = isStep(height, corners) ? steps : mesh.indices;
+        if (std::all_of(corners.begin(), corners.end(), [&](uint32_t i) { return isKnown[i] != 0; })) {
+            std::vector<uint32_t>& indices = isStep(mesh, corners, stride) ? steps : mesh.indices;
             indices.insert(indices.end(), corners.begin(), corners.end());
         }
     };
     for (int y = 0; y + 1 < rows; ++y) {
-        for (int x = 0; x + 1 < width; ++x) {
-            const auto a = static_cast<uint32_t>(normals.index(x, y)), below = a + static_cast<uint32_t>(width);
+        for (int x = 0; x + 1 < columns; ++x) {
+            const auto a = static_cast<uint32_t>(y * columns + x), below = a + static_cast<uint32_t>(columns);
             add({a, below, a + 1});
             add({a + 1, below, below + 1});
         }
@@ -55,6 +58,15 @@ Mesh reliefMesh(std::shared_ptr<const Surface> front)
     mesh.indices.insert(mesh.indices.end(), steps.begin(), steps.end());
     mesh.front = std::move(front);
     return mesh;
+}
+
+std::shared_ptr<const Mesh> coarseRelief(const std::shared_ptr<const Mesh>& relief)
+{
+    int stride = 1;
+    while (relief->triangleCount() / static_cast<size_t>(stride * stride) > kCoarseTriangles) {
+        ++stride;
+    }
+    return stride == 1 ? relief : std::make_shared<const Mesh>(reliefMesh(relief->front, stride));
 }
 
 MeshView reliefView(const Mesh& relief, const MeshViewOptions& options)

@@ -18,8 +18,8 @@ public:
     // Lights, exposure (automatic where the state has none, which is then written into it), what is shown.
     void apply(ViewState& state, const glm::vec3& view, std::span<const CapturedLight> captured);
 
-    // While meshes are turned they are drawn by one sample a pixel, at the zoom's scale where nothing but normals is
-    // needed of them: the scene's surfaces then are as they were last at rest.
+    // While meshes are turned they cast no shadows, and are drawn by one sample a pixel, at the zoom's scale where
+    // nothing but normals is needed of them: the scene's surfaces then are as they were last at rest.
     void setTurning(bool isTurning) { isTurning_ = isTurning; }
     bool isTurning() const { return isTurning_; }
     // Renderer::setLightsMove of all of them.

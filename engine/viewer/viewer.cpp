@@ -343,7 +343,7 @@ void ViewerWindow::describePanels(const Stage& stage)
     if (!isRendered) {
         remark_.clear();
     } else if (pictures_.isTurning()) {
-        remark_ = "outlines are coarse while the object turns";
+        remark_ = "outlines are coarse, and no shadows are cast, while the object turns";
     } else if (pictures_.doLightsMove() && pictures_.renderer().isCoarse()) {
         remark_ = "highlights are coarse while a light moves";
     } else if (!pictures_.isMoving() && !pace_.isDue() &&

@@ -121,6 +121,29 @@ TEST_F(ReliefTest, TurnedItShowsWhatIsKnownAndNoHiddenSide)
     }
 }
 
+// While it is turned it is drawn of fewer pixels: the same but for its outline and what lies between them.
+TEST_F(ReliefTest, CoarselyItIsNearlyTheSame)
+{
+    const auto mesh = std::make_shared<const Mesh>(reliefMesh(std::make_shared<const Surface>(ballFront()), 1));
+    const auto coarse = std::make_shared<const Mesh>(reliefMesh(mesh->front, 3));
+    EXPECT_NEAR(static_cast<double>(coarse->triangleCount()) / static_cast<double>(mesh->triangleCount()), 1 / 9.0,
+                0.02);
+    EXPECT_EQ(coarseRelief(coarse), coarse) << "few enough";
+    const Turn turn{.yaw = 30, .pitch = 10};
+    const Surface fine = rasterisedMesh(*context, *mesh, viewOf(*mesh, turn)),
+                  seen = rasterisedMesh(*context, *coarse, viewOf(*mesh, turn));
+    size_t both = 0, one = 0;
+    for (size_t i = 0; i < fine.labels.size(); ++i) {
+        const bool inFine = fine.normals.confidence[i] > 0, inSeen = seen.normals.confidence[i] > 0;
+        both += inFine && inSeen;
+        one += inFine != inSeen;
+        if (inFine && inSeen) {
+            EXPECT_LT(degreesBetween(fine.normals.normals[i], seen.normals.normals[i]), 3);
+        }
+    }
+    EXPECT_LT(one, both / 15);
+}
+
 // A table above a floor: turned towards the side that is its edge's, a strip as wide as the edge is high shows nothing;
 // turned away, the table hides as much of the floor.
 TEST_F(ReliefTest, WhatJoinsAStepIsNotKnownAndHides)
