@@ -104,4 +104,16 @@ BallGrid makeBallGrid(int size, const std::vector<Light>& lights, int threads)
     return grid;
 }
 
+std::vector<LightPlace> lightPlaces(const BallGrid& grid)
+{
+    std::vector<LightPlace> places;
+    for (size_t i = 0; i < grid.lightCount; ++i) {
+        const float place = std::clamp(differenceBinOf(grid.halves[i].z, grid.largestThetaD) - 0.5f, 0.0f,
+                                       static_cast<float>(kDifferenceBins - 1));
+        const int bin = std::min(static_cast<int>(place), kDifferenceBins - 2);
+        places.push_back({grid.directions[i], grid.halves[i], bin, place - static_cast<float>(bin)});
+    }
+    return places;
+}
+
 } // namespace nacre

@@ -46,4 +46,12 @@ struct BallGrid {
 
 BallGrid makeBallGrid(int size, const std::vector<Light>& lights, int threads);
 
+// A light as the bins of thetaD see it: between the middles of two.
+struct LightPlace {
+    glm::vec3 direction{0}, half{0};
+    int difference = 0;  // bin of thetaD
+    float nextShare = 0; // of the bin beyond
+};
+std::vector<LightPlace> lightPlaces(const BallGrid& grid);
+
 } // namespace nacre

@@ -38,7 +38,7 @@ constexpr float kLeastGrazing = 0.03f, kMostGrazing = 0.12f;
 constexpr size_t kMostGrazed = 1000, kFewestGrazed = 100;
 constexpr float kUnlitShare = 0.5f;
 // Of one albedo: objects whose pixels differ by more in the median are painted.
-constexpr size_t kFewestOfOneAlbedo = 6;
+constexpr size_t kFewestOfOneAlbedo = 6, kMostCompared = 600;
 constexpr float kMostAlbedoSpread = 0.2f;
 constexpr double kOneAlbedoMargin = 1.05;
 
@@ -134,6 +134,18 @@ float spreadOf(std::vector<float> albedos)
     return quantile(albedos, 0.5);
 }
 
+// What some pixels' matches cost under a model, over what they cost before.
+double costRatio(const PixelLattice& lattice, const MatchModel& model, const std::vector<BallMatch>& matches,
+                 const std::vector<BallMatch>& before)
+{
+    double cost = 0, costBefore = 0;
+    for (const size_t p : spreadPixels(matches.size(), kMostCompared)) {
+        cost += std::min(1.0f, polishedMatch(model, lattice, p, matches[p]).cost);
+        costBefore += std::min(1.0f, before[p].cost);
+    }
+    return cost / costBefore;
+}
+
 // Normals and reflectance at once where all pixels have one albedo, and slopes explain what brightness they differ by.
 // A factor a pixel has one unknown more to n lights, so that residuals are smaller by sqrt((n - 3) / (n - 2)) even if
 // there is no paint; what costs no more than that and a margin is kept. Answers the matches' median cost.
@@ -156,10 +168,10 @@ float refineWithOneAlbedo(const PixelLattice& lattice, int threads, MatchModel& 
     for (size_t p = 0; p < moved.size(); ++p) {
         moved[p].scale = albedo / lattice.bright[p];
     }
-    sweepMatches(tried, lattice, kNarrowSteps, {}, threads, moved);
-    polishMatches(tried, lattice, threads, moved);
     const double lights = static_cast<double>(lattice.lightCount);
-    if (meanCost(moved) < kOneAlbedoMargin * std::sqrt((lights - 2) / (lights - 3)) * meanCost(matches)) {
+    if (costRatio(lattice, tried, moved, matches) < kOneAlbedoMargin * std::sqrt((lights - 2) / (lights - 3))) {
+        sweepMatches(tried, lattice, kNarrowSteps, {}, threads, moved);
+        polishMatches(tried, lattice, threads, moved);
         model = std::move(tried);
         matches = std::move(moved);
     }
@@ -247,6 +259,10 @@ ExemplarModel makeExemplarModel(const Intensities& sample, const std::vector<Lig
         model.typicalCost = improve(model.lattice, options.threads, best.model, best.matches);
     }
     model.typicalCost = refineBothForms(model.lattice, options.threads, best.model, best.matches);
+    if (best.model.reflectance.oneAlbedo) {
+        findings.push_back({FindingCode::reflectanceChosen,
+                            "exemplar: all pixels have one albedo, since one for each explains them no better"});
+    }
     model.match = std::move(best.model);
     model.matches = std::move(best.matches);
     model.nearest = nearestPixels(model.lattice);

@@ -55,10 +55,18 @@ double lossOf(float residual, float limit)
     return r * r / 2 - r * r * r / (3 * limit);
 }
 
-// Calls the function with the factors of each row of the prior, whose square is penalised, its weight and unknowns.
-template <class Row> void eachPriorRow(const Row& row)
+// Calls the function with each row of the prior: its weight, its value, whose square is penalised, and the factors of
+// the unknowns in it.
+template <class Row> void eachPriorRow(const Eigen::VectorXd& unknowns, const Row& visit)
 {
     using Terms = std::initializer_list<std::pair<int, double>>;
+    const auto row = [&](double weight, Terms terms) {
+        double value = 0;
+        for (const auto& [k, factor] : terms) {
+            value += factor * unknowns[k];
+        }
+        visit(weight, value, terms);
+    };
     for (int k = 0; k < kLobeUnknowns; ++k) {
         const int half = k / kDifferenceBins;
         if (half > 0 && half + 1 < kHalfBins) {
@@ -80,13 +88,7 @@ template <class Row> void eachPriorRow(const Row& row)
 double priorCost(const Eigen::VectorXd& unknowns)
 {
     double cost = 0;
-    eachPriorRow([&](double weight, auto terms) {
-        double value = 0;
-        for (const auto& [k, factor] : terms) {
-            value += factor * unknowns[k];
-        }
-        cost += weight * value * value / 2;
-    });
+    eachPriorRow(unknowns, [&](double weight, double value, auto) { cost += weight * value * value / 2; });
     return cost;
 }
 
@@ -184,11 +186,7 @@ SharedEquations eliminated(const Problem& problem, const Estimate& estimate, dou
 
 void addPrior(const Eigen::VectorXd& unknowns, SharedEquations& shared)
 {
-    eachPriorRow([&](double weight, auto terms) {
-        double value = 0;
-        for (const auto& [k, factor] : terms) {
-            value += factor * unknowns[k];
-        }
+    eachPriorRow(unknowns, [&](double weight, double value, auto terms) {
         for (const auto& [a, p] : terms) {
             shared.right[a] -= weight * p * value;
             for (const auto& [b, q] : terms) {

@@ -21,15 +21,12 @@ constexpr float kLeastPowerCosine = 0.03f;
 // T over thetaH for each light, whose thetaD is fixed.
 std::vector<float> lightProfiles(const BallGrid& grid, const Reflectance& reflectance)
 {
-    std::vector<float> profiles(grid.lightCount * kHalfBins);
-    for (size_t i = 0; i < grid.lightCount; ++i) {
-        const float place = std::clamp(differenceBinOf(grid.halves[i].z, grid.largestThetaD) - 0.5f, 0.0f,
-                                       static_cast<float>(kDifferenceBins - 1));
-        const int bin = std::min(static_cast<int>(place), kDifferenceBins - 2);
-        const float share = place - static_cast<float>(bin);
+    std::vector<float> profiles;
+    profiles.reserve(grid.lightCount * kHalfBins);
+    for (const LightPlace& light : lightPlaces(grid)) {
         for (int half = 0; half < kHalfBins; ++half) {
-            const float* lobe = &reflectance.lobe[static_cast<size_t>(half) * kDifferenceBins + bin];
-            profiles[i * kHalfBins + half] = lobe[0] * (1 - share) + lobe[1] * share;
+            const float* lobe = &reflectance.lobe[static_cast<size_t>(half) * kDifferenceBins + light.difference];
+            profiles.push_back(lobe[0] * (1 - light.nextShare) + lobe[1] * light.nextShare);
         }
     }
     return profiles;

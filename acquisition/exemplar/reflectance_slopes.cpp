@@ -148,16 +148,6 @@ NormalBasis basisOf(const glm::vec3& normal)
     return {across, glm::cross(normal, across)};
 }
 
-std::vector<LightPlace> lightPlaces(const BallGrid& grid)
-{
-    std::vector<LightPlace> places;
-    for (size_t i = 0; i < grid.lightCount; ++i) {
-        const Between at = between(differenceBinOf(grid.halves[i].z, grid.largestThetaD) - 0.5f, kDifferenceBins);
-        places.push_back({grid.directions[i], grid.halves[i], at.knot, at.share});
-    }
-    return places;
-}
-
 RootSlopes rootSlopes(const SlopedReflectance& sloped, const PixelGuess& guess, const NormalBasis& basis, float bright,
                       const LightPlace& light)
 {

@@ -40,14 +40,6 @@ struct NormalBasis {
 };
 NormalBasis basisOf(const glm::vec3& normal);
 
-// A light as the bins of thetaD see it.
-struct LightPlace {
-    glm::vec3 direction{0}, half{0};
-    int difference = 0;  // bin of thetaD
-    float nextShare = 0; // of the bin beyond
-};
-std::vector<LightPlace> lightPlaces(const BallGrid& grid);
-
 // The root of what a pixel shows of a light, over its bright level, and its derivatives: by steps of the normal across
 // and along its basis, by logScale, and by the few unknowns that it depends on. Where all pixels have one albedo,
 // logScale is nothing that a pixel may choose, and its derivative 0.

@@ -4,11 +4,10 @@ set -euo pipefail
 nacre=$1 folder=$2
 sources=$(cd "$(dirname "$0")" && pwd)
 . "$sources/../support/npm_package.sh"
+. "$sources/../support/surface_to_export.sh"
 npm_package gltf-validator "$sources" "$folder"
 cd "$folder"
-rm -rf capture a.nacre
-"$nacre" synth capture --shape bumpy --side 48 --lights 12 --noise 0 --give-lights --material 'ggx:diffuse=0.5,0.3,0.2;alpha=0.3' >/dev/null
-"$nacre" acquire capture --normals least-squares --quiet -o a.nacre
+surface_to_export "$nacre"
 "$nacre" export a.nacre --gltf surface.glb --force
 "$nacre" export 'ggx:diffuse=0;specular=0.9,0.6,0.4;alpha=0.2' --gltf metal.glb --force
 node "$sources/check_glb.mjs" . surface.glb metal.glb

@@ -5,11 +5,10 @@ set -euo pipefail
 nacre=$1 folder=$2
 sources=$(cd "$(dirname "$0")" && pwd)
 . "$sources/../support/npm_package.sh"
+. "$sources/../support/surface_to_export.sh"
 npm_package @needle-tools/materialx "$sources" "$folder"
 cd "$folder"
-rm -rf capture a.nacre
-"$nacre" synth capture --shape bumpy --side 48 --lights 12 --noise 0 --give-lights --material 'ggx:diffuse=0.5,0.3,0.2;alpha=0.3' >/dev/null
-"$nacre" acquire capture --normals least-squares --quiet -o a.nacre
+surface_to_export "$nacre"
 "$nacre" export a.nacre --materialx surface.mtlx --force
 "$nacre" export 'ggx:diffuse=0;specular=0.9,0.6,0.4;alpha=0.2' --materialx metal.mtlx --force
 "$nacre" export 'ggx:diffuse=0.1;specular=0.5;alpha=0.9' --materialx sheen.mtlx --force
