@@ -8,7 +8,7 @@ namespace nacre {
 namespace {
 
 // In the order of FindingCode.
-constexpr std::array<std::string_view, 29> kNames = {"transfer-curve-left",
+constexpr std::array<std::string_view, 31> kNames = {"transfer-curve-left",
                                                      "transfer-curve-taken",
                                                      "lights-near",
                                                      "lights-ill-placed",
@@ -20,6 +20,8 @@ constexpr std::array<std::string_view, 29> kNames = {"transfer-curve-left",
                                                      "axes-mixed",
                                                      "mask-dark",
                                                      "mask-inverted",
+                                                     "mask-elsewhere",
+                                                     "camera-shake",
                                                      "photographs-alike",
                                                      "normals-unstable",
                                                      "clipped",

@@ -20,6 +20,8 @@ enum class FindingCode {
     axesMixed,
     maskDark,
     maskInverted,
+    maskElsewhere,
+    cameraShake,
     photographsAlike,
     normalsUnstable,
     clipped,

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "acquisition/chain/near_surface.h"
+#include "acquisition/chain/picture_checks.h"
 #include "acquisition/chain/self_lit_choice.h"
 #include "acquisition/checks/lambertian_misfit.h"
 #include "acquisition/checks/plain_values.h"
@@ -113,6 +114,10 @@ std::pair<PreparedCapture, Observations> reconcileCapture(const Capture& capture
     prepared.reconciled.findings = std::move(findings);
     prepared.reconciled.figures = std::move(values.figures);
     keepReconciled(prepared);
+    const SelfChecks picture = checkPicture(capture, prepared);
+    append(prepared.reconciled.findings, picture.findings);
+    prepared.reconciled.figures.insert(prepared.reconciled.figures.end(), picture.figures.begin(),
+                                       picture.figures.end());
     if (prepared.rig.lights.size() != seen.lightCount) {
         seen = selectLights(seen, prepared.reconciled.agreeing);
     }

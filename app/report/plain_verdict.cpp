@@ -33,7 +33,10 @@ const char* reasonOf(FindingCode code)
         return "the lights' directions do not fit the photographs";
     case FindingCode::maskDark:
     case FindingCode::maskInverted:
+    case FindingCode::maskElsewhere:
         return "the mask does not fit the object";
+    case FindingCode::cameraShake:
+        return "the camera or the object moved between photographs";
     case FindingCode::photographsAlike:
         return "the photographs hardly differ";
     case FindingCode::normalsUnstable:
