@@ -7,6 +7,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <CLI/CLI.hpp>
@@ -19,6 +20,7 @@
 #include "app/materials/parameter_export.h"
 #include "app/materials/rti_fits.h"
 #include "app/page/page_export.h"
+#include "engine/exchange/relief_mesh.h"
 #include "engine/files/error.h"
 #include "engine/files/parallel_for.h"
 #include "engine/files/text_files.h"
@@ -46,6 +48,7 @@ struct ExportArguments {
     std::filesystem::path normals;
     std::filesystem::path albedo;
     std::filesystem::path height;
+    std::filesystem::path mesh;
     ParameterExport parameters;
     std::string ptmFormat = "lrgb";
     std::string basis = "hsh";
@@ -64,7 +67,8 @@ struct ExportArguments {
     void check() const;
     bool asksNothingElse() const
     {
-        return ptm.empty() && web.empty() && normals.empty() && albedo.empty() && height.empty() && page.file.empty();
+        return ptm.empty() && web.empty() && normals.empty() && albedo.empty() && height.empty() && mesh.empty() &&
+               page.file.empty();
     }
 };
 
@@ -90,6 +94,7 @@ void requireChoices(const ExportArguments& arguments)
     requireExtension("--write-normals", arguments.normals, {".png", ".exr"});
     requireExtension("--albedo", arguments.albedo, {".png", ".exr"});
     requireExtension("--height", arguments.height, {".exr"});
+    requireExtension("--mesh", arguments.mesh, {".ply", ".obj", ".glb"});
     if (arguments.ptmFormat != "lrgb" && arguments.ptmFormat != "rgb") {
         throw usageError(fmt::format("--ptm-format {} is not known", arguments.ptmFormat), "lrgb or rgb");
     }
@@ -114,13 +119,14 @@ void requireChoices(const ExportArguments& arguments)
 void requireOutputs(const ExportArguments& arguments)
 {
     const ParameterExport& parameters = arguments.parameters;
-    std::vector<fs::path> outputs = {arguments.ptm,    arguments.web,        arguments.normals,
-                                     arguments.albedo, arguments.height,     arguments.page.file,
-                                     parameters.gltf,  parameters.materialX, parameters.balls};
+    std::vector<fs::path> outputs = {arguments.ptm,        arguments.web,   arguments.normals,   arguments.albedo,
+                                     arguments.height,     arguments.mesh,  arguments.page.file, parameters.gltf,
+                                     parameters.materialX, parameters.balls};
     std::erase_if(outputs, [](const fs::path& output) { return output.empty(); });
     if (outputs.empty()) {
-        throw usageError("nothing is asked for",
-                         "--page, --ptm, --rti-web, --write-normals, --albedo, --height, --gltf or --materialx");
+        throw usageError(
+            "nothing is asked for",
+            "--page, --ptm, --rti-web, --write-normals, --albedo, --height, --mesh, --gltf or --materialx");
     }
     parameters.check();
     for (size_t i = 0; i < outputs.size(); ++i) {
@@ -151,6 +157,9 @@ void ExportArguments::addTo(CLI::App& command)
     command.add_option("--write-normals", normals, "Normals to write, .png (16 bits, (n + 1) / 2) or .exr")
         ->option_text("FILE");
     command.add_option("--height", height, "Height to write, .exr: pixels towards the viewer")->option_text("FILE");
+    command
+        .add_option("--mesh", mesh, "Mesh to write, .ply, .obj or .glb: a vertex a pixel, of --width, with its normal")
+        ->option_text("FILE");
     command.add_option("--albedo", albedo, "Colour without shading and gloss to write, .png (16 bits) or .exr")
         ->option_text("FILE");
     command.add_option("--gltf", parameters.gltf, "Surface, or sphere of a material, in glTF's parameters, FILE.glb")
@@ -159,7 +168,7 @@ void ExportArguments::addTo(CLI::App& command)
         ->option_text("FILE");
     command.add_option("--balls", parameters.balls, "Balls of the materials beside those of the parameters, FILE.png")
         ->option_text("FILE");
-    command.add_option("--width", parameters.width, "Width of --gltf in metres")->capture_default_str();
+    command.add_option("--width", parameters.width, "Width of --gltf and --mesh in metres")->capture_default_str();
     command
         .add_option("--fits", fits, "Folder of merl_abc_params.csv and merl_sgd_params.csv (default: $NACRE_FITS_DIR)")
         ->option_text("DIR");
@@ -347,6 +356,28 @@ void exportRti(const ExportArguments& arguments, const Surface& surface)
     }
 }
 
+void exportMesh(const ExportArguments& arguments, const Surface& surface)
+{
+    if (arguments.mesh.empty()) {
+        return;
+    }
+    const float width = arguments.parameters.width;
+    GltfMesh mesh = reliefMesh(surface, exportedHeight(surface, arguments.threads), width);
+    if (mesh.indices.empty()) {
+        throw Error(arguments.surface, "has no normals side by side", "a surface with pixels");
+    }
+    const size_t triangles = mesh.indices.size() / 3;
+    const std::string extension = lowerExtension(arguments.mesh);
+    if (extension == ".glb") {
+        GltfMaterial grey{.name = "grey", .baseColor = glm::vec3(0.5f), .metallic = 0};
+        saveGlb(arguments.mesh, {arguments.surface.stem().string(), std::move(mesh), std::move(grey)});
+    } else {
+        (extension == ".ply" ? savePly : saveObj)(arguments.mesh, mesh);
+    }
+    print(arguments, fmt::format("{}: {} triangles, {} m wide, heights {}", arguments.mesh.string(), triangles, width,
+                                 surface.height.values.empty() ? "integrated from the normals" : "the surface's own"));
+}
+
 void exportMaps(const ExportArguments& arguments, const Surface& surface)
 {
     if (!arguments.normals.empty()) {
@@ -359,6 +390,7 @@ void exportMaps(const ExportArguments& arguments, const Surface& surface)
               fmt::format("{}: heights in pixels, {}", arguments.height.string(),
                           surface.height.values.empty() ? "integrated from the normals" : "the surface's own"));
     }
+    exportMesh(arguments, surface);
     if (!arguments.albedo.empty()) {
         const float scale = saveAlbedo(arguments.albedo, exportedAlbedo(surface));
         print(arguments,

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
 #include "engine/files/error.h"
@@ -9,6 +10,7 @@
 #include "engine/files/whole_file.h"
 #include "engine/rti/ptm_file.h"
 #include "engine/rti/rti_web.h"
+#include "engine/target/mesh_file.h"
 #include "tests/gpu/scenes.h"
 #include "tests/support/expect_one_line.h"
 #include "tests/support/run_nacre.h"
@@ -78,6 +80,47 @@ TEST_F(Export, HeightIsThatOfTheNormals)
     }
     ASSERT_GT(steps, 100);
     EXPECT_LT(error / steps, 0.05); // of slopes up to 1
+}
+
+// Our own reader finds each pixel's place, height and normal in all three formats.
+TEST_F(Export, AMeshIsTheReliefInMetres)
+{
+    ASSERT_EQ(run({"--height", path("h.exr")}).exitCode, 0);
+    const Image height = loadImage(folder_ / "h.exr");
+    const NormalMap& map = surface_.normals;
+    constexpr double kMetres = 0.24 / 48; // a pixel
+    for (const std::string name : {"m.ply", "m.obj", "m.glb"}) {
+        const ProgramRun made = run({"--mesh", path(name), "--width", "0.24"});
+        ASSERT_EQ(made.exitCode, 0) << made.err;
+        const Mesh mesh = loadMesh(path(name));
+        EXPECT_FALSE(mesh.normalsWereMade) << name;
+        ASSERT_GT(mesh.triangleCount(), 1000u) << name;
+        std::vector<double> offset; // the height is known up to a constant
+        for (size_t i = 0; i < mesh.positions.size(); ++i) {
+            const glm::dvec3 p = glm::dvec3(mesh.positions[i]) / kMetres;
+            const double column = p.x + 24 - 0.5, row = 20 - p.y - 0.5;
+            const int x = static_cast<int>(std::lround(column)), y = static_cast<int>(std::lround(row));
+            ASSERT_NEAR(column, x, 1e-3) << name;
+            ASSERT_NEAR(row, y, 1e-3) << name;
+            ASSERT_GT(map.confidence[map.index(x, y)], 0) << name;
+            offset.push_back(p.z - height.at(x, y));
+            ASSERT_NEAR(offset.back(), offset.front(), 1e-3) << name;
+            ASSERT_LT(degreesBetween(mesh.normals[i], map.normals[map.index(x, y)]), 0.05) << name;
+            if (mesh.uvs.empty()) {
+                continue; // a .glb without textures
+            }
+            ASSERT_NEAR(mesh.uvs[i].x, (x + 0.5) / 48, 1e-4) << name;
+            ASSERT_NEAR(mesh.uvs[i].y, 1 - (y + 0.5) / 40, 1e-4) << name;
+        }
+        double facing = 0; // counter-clockwise from the camera
+        for (size_t i = 0; i < mesh.indices.size(); i += 3) {
+            const glm::vec3 a = mesh.positions[mesh.indices[i]], b = mesh.positions[mesh.indices[i + 1]],
+                            c = mesh.positions[mesh.indices[i + 2]];
+            facing += glm::cross(b - a, c - a).z > 0 ? 1 : -1;
+        }
+        EXPECT_EQ(facing, static_cast<double>(mesh.triangleCount())) << name;
+    }
+    expectOneLine(run({"--mesh", path("m.stl")}), 2, {"--mesh", ".ply", ".glb"});
 }
 
 TEST_F(Export, FilesOpenAndShowTheSurface)
