@@ -11,7 +11,7 @@ void addCommands(CLI::App& app)
     const std::pair<const char*, Adders> groups[] = {
         {"Measure",
          {addAcquireCommand, addNormalsCommand, addCalibrateCommand, addMaterialsCommand, addBrdfCommand,
-          addExportCommand}},
+          addImportCommand, addExportCommand}},
         {"Render", {addRenderCommand, addTransferCommand, addTargetCommand}},
         {"Look", {addViewCommand, addInfoCommand}},
         {"Judge", {addEvaluateCommand, addChartCommand, addStressCommand, addBenchCommand, addCompareCommand}},

@@ -16,6 +16,7 @@ void addNormalsCommand(CLI::App& app);
 void addCalibrateCommand(CLI::App& app);
 void addBrdfCommand(CLI::App& app);
 void addCompareCommand(CLI::App& app);
+void addImportCommand(CLI::App& app);
 void addExportCommand(CLI::App& app);
 void addStressCommand(CLI::App& app);
 void addEvaluateCommand(CLI::App& app);
