@@ -158,6 +158,34 @@ TEST(EvaluateCommand, TellsPhotographsNormalsBytesAndShowsTheWorst)
     EXPECT_EQ(runNacre({"evaluate", capture, "--hold-out", "each:7"}).exitCode, 2);
 }
 
+// Of eight lights six are given, which are few.
+TEST(EvaluateCommand, PassesTheAcquisitionsWarningsOn)
+{
+    const TempFolder folder;
+    const std::string capture = (folder / "few").string(), summary = (folder / "e.json").string();
+    ASSERT_EQ(runNacre({"synth", capture, "--shape", "sphere", "--side", "24", "--sphere-size", "48", "--lights", "8",
+                        "--give-lights"})
+                  .exitCode,
+              0);
+    const auto codes = [&](const std::string& holdOut) {
+        const ProgramRun run = runNacre(
+            {"evaluate", capture, "--normals", "consensus", "--hold-out", holdOut, "--json", summary, "--force"});
+        EXPECT_EQ(run.exitCode, 0) << run.err;
+        std::vector<std::string> warnings;
+        const nlohmann::json document = nlohmann::json::parse(readTextFile(summary));
+        for (const auto& finding : document["findings"]) {
+            if (finding["warning"]) {
+                warnings.push_back(finding["code"]);
+                EXPECT_NE(run.out.find(finding["text"].get<std::string>()), std::string::npos) << run.out;
+            }
+        }
+        return warnings;
+    };
+    const std::vector<std::string> few = codes("every:4"), more = codes("every:8");
+    EXPECT_EQ(std::count(few.begin(), few.end(), "few-lights"), 1);
+    EXPECT_EQ(std::count(more.begin(), more.end(), "few-lights"), 0) << "seven are given";
+}
+
 TEST(EvaluateCommand, KeepsTheModelWithinTheBudget)
 {
     const TempFolder folder;
