@@ -34,7 +34,7 @@ const char* reasonOf(FindingCode code)
     case FindingCode::maskDark:
     case FindingCode::maskInverted:
     case FindingCode::maskElsewhere:
-        return "the mask does not fit the object";
+        return "the mask is missing or does not fit the object";
     case FindingCode::cameraShake:
         return "the camera or the object moved between photographs";
     case FindingCode::photographsAlike:
