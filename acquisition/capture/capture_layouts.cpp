@@ -285,8 +285,16 @@ LayoutContents readLp(const fs::path& lp, const fs::path& folder, const PictureP
     contents.capture.lightPlaces = lights.vectors;
     contents.capture.irradianceGiven = lights.irradianceGiven;
     contents.capture.lightsSource = lights.lights.empty() ? "" : lp.string();
-    std::copy_if(pool[0].begin(), pool[0].end(), std::back_inserter(contents.masks),
-                 [&](const fs::path& file) { return isNamedMask(file) && !listed.contains(file); });
+    const auto isMaskIn = [&](const fs::path& place) {
+        return [&, place](const fs::path& file) {
+            return file.parent_path() == place && isNamedMask(file) && !listed.contains(file);
+        };
+    };
+    std::copy_if(pool[0].begin(), pool[0].end(), std::back_inserter(contents.masks), isMaskIn(folder));
+    const fs::path photographs = contents.capture.photographs[0].exposures[0].file.parent_path();
+    for (size_t depth = 1; depth < pool.size() && contents.masks.empty(); ++depth) {
+        std::copy_if(pool[depth].begin(), pool[depth].end(), std::back_inserter(contents.masks), isMaskIn(photographs));
+    }
     return contents;
 }
 
@@ -297,21 +305,60 @@ PicturePool picturesBelow(const fs::path& folder)
     return pool;
 }
 
+bool listsAny(const fs::path& lp, const fs::path& folder, const PicturePool& pool)
+{
+    const LightFile lights = loadLpList(lp);
+    return std::any_of(lights.photographs.begin(), lights.photographs.end(), [&](const std::string& name) {
+        return !findPhotograph(pool, lp, folder, fs::path(withSlashes(name)).filename()).empty();
+    });
+}
+
 // The folder above may hold anything: its .lp file counts where it lists a photograph of this folder.
 std::optional<LayoutContents> readLpAbove(const fs::path& folder)
 {
+    const PicturePool pool = picturesBelow(folder);
     for (const fs::path& lp : lpFilesIn(fs::weakly_canonical(folder).parent_path())) {
-        const PicturePool pool = picturesBelow(folder);
-        const LightFile lights = loadLpList(lp);
-        const bool itsOwn =
-            std::any_of(lights.photographs.begin(), lights.photographs.end(), [&](const std::string& name) {
-                return !findPhotograph(pool, lp, folder, fs::path(withSlashes(name)).filename()).empty();
-            });
-        if (itsOwn) {
+        if (listsAny(lp, folder, pool)) {
             return readLp(lp, folder, pool);
         }
     }
     return std::nullopt;
+}
+
+// In a project of RTIBuilder the .lp file and the photographs lie in folders side by side.
+std::optional<LayoutContents> readProject(const fs::path& folder)
+{
+    if (!picturesIn(folder).empty()) {
+        return std::nullopt;
+    }
+    std::set<fs::path> lists;
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
+        if (entry.is_directory()) {
+            const std::vector<fs::path> here = lpFilesIn(entry.path());
+            lists.insert(here.begin(), here.end());
+        }
+    }
+    if (lists.size() > 1) {
+        throw Error(folder,
+                    fmt::format("holds {} .lp files in its folders, {} and {} among them", lists.size(),
+                                lists.begin()->string(), std::next(lists.begin())->string()),
+                    "one, or the choice of an .lp as the capture");
+    }
+    return lists.empty() ? std::nullopt : std::optional(readLp(*lists.begin(), folder, picturesBelow(folder)));
+}
+
+// The photographs of an .lp file lie beside or below it; else below the folder above.
+LayoutContents readLpOfFolder(const fs::path& lp, const fs::path& folder)
+{
+    const PicturePool pool = picturesBelow(folder);
+    const fs::path above = fs::weakly_canonical(folder).parent_path();
+    if (pool[0].empty() && !listsAny(lp, folder, pool)) {
+        const PicturePool more = picturesBelow(above);
+        if (listsAny(lp, above, more)) {
+            return readLp(lp, above, more);
+        }
+    }
+    return readLp(lp, folder, pool);
 }
 
 } // namespace
@@ -320,11 +367,12 @@ std::optional<LayoutContents> readRtiLayout(const fs::path& folder, const fs::pa
 {
     if (fs::is_regular_file(folder)) {
         const fs::path beside = folder.has_parent_path() ? folder.parent_path() : fs::path(".");
-        return readLp(folder, beside, picturesBelow(beside));
+        return readLpOfFolder(folder, beside);
     }
     const std::vector<fs::path> files = lpFilesIn(folder);
     if (files.empty()) {
-        return readLpAbove(folder);
+        std::optional<LayoutContents> above = readLpAbove(folder);
+        return above ? above : readProject(folder);
     }
     const bool chosen = files.size() > 1 && lowerCase(rig.extension().string()) == ".lp";
     if (files.size() > 1 && !chosen) {
@@ -333,7 +381,7 @@ std::optional<LayoutContents> readRtiLayout(const fs::path& folder, const fs::pa
                                 files[1].filename().string()),
                     "one, or the choice of a rig");
     }
-    return readLp(chosen ? rig : files[0], folder, picturesBelow(folder));
+    return readLpOfFolder(chosen ? rig : files[0], folder);
 }
 
 } // namespace nacre

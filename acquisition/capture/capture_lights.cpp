@@ -227,6 +227,10 @@ void placeLights(LayoutContents& contents, const CaptureOptions& options)
         light.distance = distance ? std::numeric_limits<float>::infinity() : light.distance;
     }
     capture.fieldOfView = options.fieldOfView ? options.fieldOfView : capture.fieldOfView;
+    if (!distance && !width && !areDirections(vectors)) {
+        const char* unused = "their lengths left out: places need --object-width in their unit";
+        capture.lightsOrder += (capture.lightsOrder.empty() ? "" : "; ") + std::string(unused);
+    }
     if (distance || !width) {
         return;
     }

@@ -83,6 +83,21 @@ std::vector<double> parseRow(const fs::path& file, std::string_view line)
     return found.numbers;
 }
 
+// Of columns, as spreadsheets write them: no number among its words, which begin with a letter.
+bool isHeading(std::string_view line)
+{
+    const auto isLetter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); };
+    bool startsWord = true;
+    for (const char c : line) {
+        const bool parts = kBlanksAndCommas.find(c) != std::string_view::npos;
+        if (startsWord && !parts && c != '"' && !isLetter(c)) {
+            return false;
+        }
+        startsWord = parts || (startsWord && c == '"');
+    }
+    return line.find_first_of(kBlanksAndCommas) != std::string_view::npos;
+}
+
 void requireEqualRows(const fs::path& file, const NumberTable& rows)
 {
     for (size_t i = 1; i < rows.size(); ++i) {
@@ -183,12 +198,16 @@ NumbersAtEnd takeNumbersFromEnd(std::string_view line, size_t most)
 
 NumberTable loadNumberTable(const fs::path& file)
 {
+    std::vector<std::string> lines = loadTextLines(file);
+    if (lines.size() > 1 && isHeading(lines[0])) {
+        lines.erase(lines.begin());
+    }
     NumberTable rows;
-    for (const std::string& line : loadTextLines(file)) {
+    for (const std::string& line : lines) {
         rows.push_back(parseRow(file, line));
     }
     if (rows.size() > 1 && rows[0].size() == 1 && rows[1].size() > 1) {
-        const size_t announced = parseCount(file, loadTextLines(file)[0]);
+        const size_t announced = parseCount(file, lines[0]);
         rows.erase(rows.begin());
         const bool columns = rows.size() == 3 && rows[0].size() != 3;
         requireAnnouncedCount(file, announced, columns ? rows[0].size() : rows.size());

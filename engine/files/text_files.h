@@ -30,8 +30,9 @@ struct NumbersAtEnd {
 };
 NumbersAtEnd takeNumbersFromEnd(std::string_view line, size_t most);
 
-// Lines of numbers, all of one length. A first line of one number is the count of the lines (or of the columns, where
-// there are three lines), which is checked and left out. Throws Error; the table is not empty.
+// Lines of numbers, all of one length; a first line of words is a heading. A first line of one number is the count of
+// the lines (or of the columns, where there are three lines), which is checked and left out. Throws Error; the table is
+// not empty.
 using NumberTable = std::vector<std::vector<double>>;
 NumberTable loadNumberTable(const std::filesystem::path& file);
 

@@ -62,6 +62,17 @@ std::vector<glm::vec3> vectorsOf(const fs::path& file, const NumberTable& rows)
     return vectors;
 }
 
+// Whether a number of its own, from 0 or 1, stands before each light's three.
+bool isNumbered(const NumberTable& rows)
+{
+    const double first = rows[0][0];
+    bool counts = rows[0].size() == 4 && rows.size() > 1 && (first == 0 || first == 1);
+    for (size_t i = 0; i < rows.size() && counts; ++i) {
+        counts = rows[i][0] == first + static_cast<double>(i);
+    }
+    return counts;
+}
+
 LightFile lightsOf(const fs::path& file, std::vector<glm::vec3> vectors)
 {
     LightFile result;
@@ -233,7 +244,13 @@ LightFile loadLpFile(const fs::path& file)
 
 LightFile loadDirectionTable(const fs::path& file)
 {
-    return lightsOf(file, vectorsOf(file, loadNumberTable(file)));
+    NumberTable rows = loadNumberTable(file);
+    if (isNumbered(rows)) {
+        for (std::vector<double>& row : rows) {
+            row.erase(row.begin());
+        }
+    }
+    return lightsOf(file, vectorsOf(file, rows));
 }
 
 std::vector<glm::vec3> loadIrradiances(const fs::path& file)

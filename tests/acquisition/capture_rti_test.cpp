@@ -246,6 +246,32 @@ TEST_F(CaptureRti, PhotographsBelowTheList)
     EXPECT_EQ(capture.lightsSource, (fs::canonical(folder_.path()) / "lights.lp").string());
 }
 
+// As RTIBuilder leaves it: photographs, the list and what was made of them in folders side by side.
+TEST_F(CaptureRti, AProjectOfFoldersSideBySide)
+{
+    const fs::path project = folder_ / "project", photographs = project / "jpeg-exports";
+    fs::create_directories(photographs);
+    fs::create_directories(project / "assembly-files");
+    std::string list = "10\r\n";
+    for (int i = 1; i <= 10; ++i) {
+        const std::string name = "photo " + std::to_string(i) + ".png";
+        fs::rename(folder_ / name, photographs / name);
+        list += "C:\\Users\\anna\\project\\jpeg-exports\\" + name + " 0." + std::to_string(i) + " 0 0.9\r\n";
+    }
+    fs::remove(folder_ / "lights.lp");
+    fs::create_directories(project / "finished-files");
+    writeText(project / "assembly-files" / "project.lp", list);
+    writeMask(photographs / "mask.png");
+    for (const fs::path& given : {project, project / "assembly-files", project / "assembly-files" / "project.lp"}) {
+        const Capture capture = loadCapture(given);
+        ASSERT_EQ(capture.photographs.size(), 10u) << given;
+        EXPECT_TRUE(fs::equivalent(capture.photographs[9].exposures[0].file, photographs / "photo 10.png")) << given;
+        EXPECT_EQ(capture.maskPixels, size_t{6} * kTestHeight) << given;
+    }
+    writeText(project / "finished-files" / "other.lp", list);
+    expectError([&] { loadCapture(project); }, {"project", "2 .lp files", "other.lp", "choice of an .lp"});
+}
+
 TEST_F(CaptureRti, PhotographsBesideTheListComeBeforeThumbnails)
 {
     writePicture(folder_ / "thumbs" / "photo 1.png", testPicture(1, 2, 2));

@@ -48,6 +48,18 @@ TEST_F(LightFiles, TableOfThreeNumbersALine)
     expectVector(directions[3], {1, 0, 0});
 }
 
+TEST_F(LightFiles, TablesOfSpreadsheetsHaveAHeadingAndNumbers)
+{
+    for (const char* text :
+         {"led,x_mm,y_mm,z_mm\n1,0,0,300\n2,180,0,240\n", "\"x\";\"y\";\"z\"\n0;0;300\n180;0;240\n"}) {
+        const auto directions = loadDirections(write("l.csv", text));
+        ASSERT_EQ(directions.size(), 2u) << text;
+        expectVector(directions[1], {0.6f, 0, 0.8f});
+    }
+    expectError([&] { loadDirections(write("l.csv", "led,x,y,z\n1,0,0,300\n3,180,0,240\n")); }, {"l.csv", "4 numbers"});
+    expectError([&] { loadDirections(write("l.csv", "0,0,1\nled,0,1\n")); }, {"l.csv", "\"led\" is no number"});
+}
+
 TEST_F(LightFiles, TableOfThreeLines)
 {
     const auto directions = loadDirections(write("l.txt", "1 0 0 3\n0 1 0 0\n0 0 1 4\n"));
