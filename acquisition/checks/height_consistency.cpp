@@ -196,9 +196,8 @@ SelfChecks checkHeight(const NormalMap& map)
                                  turn, 100 * (1 - found.turnedRatio)));
     }
     if (checks.findings.empty() && bulge(map, glm::dmat2(1)) < -kHollow) {
-        checks.findings.push_back({FindingCode::hollow,
-                                   "by its outline the object is hollow; if it bulges, x and y of all lights are "
-                                   "reversed"});
+        checks.findings.emplace_back(FindingCode::hollow, "by its outline the object is hollow; if it bulges, x and y "
+                                                          "of all lights are reversed");
     }
     return checks;
 }
