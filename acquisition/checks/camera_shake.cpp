@@ -19,6 +19,7 @@ constexpr float kLargestShift = kMargin - 2;
 constexpr size_t kMostTiles = 32, kFewestTiles = 4;
 constexpr double kLeastCover = 0.25; // of a tile, by the mask
 constexpr int kShakeSteps = 8, kShakeReweightings = 3;
+constexpr double kLeastStep = 0.02; // pixels, of any photograph
 constexpr size_t kFewestShaken = 6; // three numbers an axis are set aside
 
 constexpr double kLeastScale = 0.02; // of outliers, in what is bright
@@ -160,7 +161,9 @@ Shifts shiftsBy(const std::vector<const Tile*>& tiles, const Directions& directi
 {
     const auto n = static_cast<size_t>(directions.rows());
     Shifts shifts(n, Eigen::Vector2d::Zero());
-    for (int step = 0; step < kShakeSteps; ++step) {
+    double moved = kLargestShift;
+    for (int step = 0; step < kShakeSteps && moved > kLeastStep; ++step) {
+        const Shifts before = shifts;
         std::vector<std::vector<ShiftSums>> parts(tiles.size(), std::vector<ShiftSums>(n));
         parallelFor(tiles.size(), 1, threads, [&](size_t first, size_t last) {
             for (size_t t = first; t < last; ++t) {
@@ -178,8 +181,10 @@ Shifts shiftsBy(const std::vector<const Tile*>& tiles, const Directions& directi
             shifts[i] -= sum.squares.inverse() * sum.products;
         }
         setAside(directions, shifts);
-        for (Eigen::Vector2d& shift : shifts) {
-            shift = shift.cwiseMax(-kLargestShift).cwiseMin(kLargestShift);
+        moved = 0;
+        for (size_t i = 0; i < n; ++i) {
+            shifts[i] = shifts[i].cwiseMax(-kLargestShift).cwiseMin(kLargestShift);
+            moved = std::max(moved, (shifts[i] - before[i]).cwiseAbs().maxCoeff());
         }
     }
     return shifts;
