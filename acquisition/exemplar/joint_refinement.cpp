@@ -154,7 +154,8 @@ PixelEquations equationsOf(const Problem& problem, const SlopedReflectance& slop
     return own;
 }
 
-// All pixels' equations, each pixel's unknowns eliminated from the shared ones.
+// All pixels' equations, each pixel's unknowns eliminated from the shared ones. What is taken from the matrix for that
+// is summed in floats: it steers steps, where they end is the right side's.
 SharedEquations eliminated(const Problem& problem, const Estimate& estimate, double damping,
                            std::vector<PixelEquations>& pixels)
 {
@@ -166,17 +167,20 @@ SharedEquations eliminated(const Problem& problem, const Estimate& estimate, dou
         SharedEquations& shared = halves[half];
         for (size_t first = half * kRefinedPerTask; first < count; first += halves.size() * kRefinedPerTask) {
             const size_t last = std::min(count, first + kRefinedPerTask);
-            Eigen::MatrixXd stacked(3 * (last - first), kReflectanceUnknowns);
+            Eigen::MatrixXf stacked(3 * (last - first), kReflectanceUnknowns);
             for (size_t p = first; p < last; ++p) {
                 PixelEquations& own = pixels[p];
                 own = equationsOf(problem, sloped, estimate.guesses[p], shared);
                 own.matrix.diagonal() *= 1 + damping;
                 own.matrix.diagonal().array() += kStayPrior;
                 const Eigen::LLT<Eigen::Matrix3d> factor(own.matrix);
-                stacked.middleRows(static_cast<Eigen::Index>(3 * (p - first)), 3) = factor.matrixL().solve(own.cross);
+                stacked.middleRows(static_cast<Eigen::Index>(3 * (p - first)), 3) =
+                    factor.matrixL().solve(own.cross).cast<float>();
                 shared.right -= own.cross.transpose() * factor.solve(own.right);
             }
-            shared.matrix.selfadjointView<Eigen::Lower>().rankUpdate(stacked.transpose(), -1);
+            Eigen::MatrixXf taken = Eigen::MatrixXf::Zero(kReflectanceUnknowns, kReflectanceUnknowns);
+            taken.selfadjointView<Eigen::Lower>().rankUpdate(stacked.transpose());
+            shared.matrix -= taken.cast<double>();
         }
     });
     halves[0].matrix += halves[1].matrix;
