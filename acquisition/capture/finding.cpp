@@ -8,7 +8,7 @@ namespace nacre {
 namespace {
 
 // In the order of FindingCode.
-constexpr std::array<std::string_view, 31> kNames = {"transfer-curve-left",
+constexpr std::array<std::string_view, 32> kNames = {"transfer-curve-left",
                                                      "transfer-curve-taken",
                                                      "lights-near",
                                                      "lights-ill-placed",
@@ -38,6 +38,7 @@ constexpr std::array<std::string_view, 31> kNames = {"transfer-curve-left",
                                                      "intensities-corrected",
                                                      "method-chosen",
                                                      "reflectance-chosen",
+                                                     "one-albedo",
                                                      "self-light"};
 static_assert(kNames.size() == static_cast<size_t>(FindingCode::selfLight) + 1);
 

@@ -39,6 +39,7 @@ enum class FindingCode {
     intensitiesCorrected,
     methodChosen,
     reflectanceChosen,
+    oneAlbedo,
     selfLight,
 };
 

@@ -23,6 +23,12 @@ std::vector<Observations> samplesByMaterial(const Observations& sample, const Se
     return samples;
 }
 
+bool hasOneAlbedo(const NormalReport& report)
+{
+    return std::any_of(report.findings.begin(), report.findings.end(),
+                       [](const Finding& finding) { return finding.code == FindingCode::oneAlbedo; });
+}
+
 } // namespace
 
 ChosenMethod chooseMethod(const CaptureSample& sample, const CheckedSample& checked, const NormalOptions& options)
@@ -33,6 +39,7 @@ ChosenMethod chooseMethod(const CaptureSample& sample, const CheckedSample& chec
         makeNormalEstimator(intensitiesOf(sample.seen, sample.lights), sample.lights, options, report)};
     chosen.method = report.method;
     chosen.methods = {report.method};
+    chosen.haveOneAlbedo = {hasOneAlbedo(report)};
     chosen.heldOutError = report.heldOutError;
     chosen.findings = std::move(report.findings);
     const SelfChecks own = checkMethod(checked, chosen.method, chosen.estimators.front());
@@ -58,6 +65,7 @@ ChosenMethod chooseMethod(const CaptureSample& sample, const CheckedSample& chec
         chosen.estimators.push_back(
             makeNormalEstimator(intensitiesOf(own, sample.lights), sample.lights, options, report));
         chosen.methods.push_back(report.method);
+        chosen.haveOneAlbedo.push_back(hasOneAlbedo(report));
         for (const Finding& finding : report.findings) {
             chosen.findings.push_back({finding.code, fmt::format("{}: {}", regions[m].name, finding.text)});
         }

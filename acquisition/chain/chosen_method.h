@@ -1,4 +1,5 @@
 #pragma once
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -14,6 +15,7 @@ struct ChosenMethod {
     NormalMethod method = NormalMethod::consensus; // of the material with most pixels
     std::vector<NormalEstimator> estimators;       // one a material, or one for all
     std::vector<NormalMethod> methods;             // of each
+    std::vector<uint8_t> haveOneAlbedo;            // of each: whether its pixels share one
     std::vector<Finding> findings;
     std::vector<CheckFigure> figures; // of the self-checks of an object of one material
     double heldOutError = 0;          // NormalReport's, of an object of one material

@@ -34,10 +34,14 @@ glm::vec3 finishOne(const Capture& capture, const std::vector<uint8_t>& object, 
 } // namespace
 
 std::vector<uint8_t> takeSlopeTrends(const NormalMap& normals, const LocalLights& lights,
-                                     std::span<const uint8_t> labels, size_t materials, Image& albedo)
+                                     std::span<const uint8_t> labels, std::span<const uint8_t> haveOneAlbedo,
+                                     Image& albedo)
 {
-    std::vector<uint8_t> taken(materials);
-    for (size_t m = 0; m < materials; ++m) {
+    std::vector<uint8_t> taken(haveOneAlbedo.size());
+    for (size_t m = 0; m < haveOneAlbedo.size(); ++m) {
+        if (!haveOneAlbedo[m]) {
+            continue;
+        }
         std::vector<uint32_t> pixels;
         std::vector<glm::vec3> factors;
         std::vector<float> cosines;

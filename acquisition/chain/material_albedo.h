@@ -9,10 +9,11 @@
 
 namespace nacre {
 
-// Takes out of each material's factors what goes with the slope (slope_trend.h). Answers, for each of so many
-// materials, whether something did.
+// Takes out of the factors what goes with the slope (slope_trend.h), of materials whose pixels share an albedo: flat
+// faces in colours of their own have such a trend, too. Answers for each material whether something was taken.
 std::vector<uint8_t> takeSlopeTrends(const NormalMap& normals, const LocalLights& lights,
-                                     std::span<const uint8_t> labels, size_t materials, Image& albedo);
+                                     std::span<const uint8_t> labels, std::span<const uint8_t> haveOneAlbedo,
+                                     Image& albedo);
 
 // refitAlbedo of albedo_factor.h with every pixel's own material; labels are indices into `tables`, null where a
 // material's factors stay as they are.

@@ -260,7 +260,7 @@ ExemplarModel makeExemplarModel(const Intensities& sample, const std::vector<Lig
     }
     model.typicalCost = refineBothForms(model.lattice, options.threads, best.model, best.matches);
     if (best.model.reflectance.oneAlbedo) {
-        findings.push_back({FindingCode::reflectanceChosen,
+        findings.push_back({FindingCode::oneAlbedo,
                             "exemplar: all pixels have one albedo, since one for each explains them no better"});
     }
     model.match = std::move(best.model);
