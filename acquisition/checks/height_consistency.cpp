@@ -196,8 +196,9 @@ SelfChecks checkHeight(const NormalMap& map)
                                  turn, 100 * (1 - found.turnedRatio)));
     }
     if (checks.findings.empty() && bulge(map, glm::dmat2(1)) < -kHollow) {
-        checks.findings.emplace_back(FindingCode::hollow, "by its outline the object is hollow; if it bulges, x and y "
-                                                          "of all lights are reversed");
+        const Finding hollow{FindingCode::hollow, "by its outline the object is hollow; if it bulges, x and y of all "
+                                                  "lights are reversed"};
+        checks.findings.push_back(hollow);
     }
     return checks;
 }
