@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "acquisition/chain/material_albedo.h"
 #include "engine/files/hash_random.h"
 
 namespace nacre {
@@ -63,6 +64,29 @@ TEST(SlopeTrend, BlackAndMissingPixelsTellNothing)
     ASSERT_TRUE(trend.has_value());
     EXPECT_TRUE(std::isfinite(trend->at(0).x) && trend->at(0).x > 0); // no pixel is as slanted
     EXPECT_FALSE(SlopeTrend::of({}, {}).has_value());
+}
+
+// Two faces of a box, each in its own colour: that goes with the slope as well as any trend does.
+TEST(SlopeTrend, FacesKeepTheirColoursWhereNobodySaidThatAllPixelsShareAnAlbedo)
+{
+    const int side = 20;
+    NormalMap normals(2 * side, side);
+    Image albedo(2 * side, side, 3);
+    for (int y = 0; y < side; ++y) {
+        for (int x = 0; x < 2 * side; ++x) {
+            const size_t i = normals.index(x, y);
+            normals.normals[i] = x < side ? glm::vec3(0, 0, 1) : glm::vec3(0.8f, 0, 0.6f);
+            normals.confidence[i] = 1;
+            albedo.setRgb(x, y, glm::vec3(x < side ? 0.2f : 0.7f));
+        }
+    }
+    const std::vector<uint8_t> labels(normals.normals.size(), 0);
+    const LocalLights lights(std::vector<Light>{});
+    const std::vector<float> before = albedo.values;
+    EXPECT_EQ(takeSlopeTrends(normals, lights, labels, std::vector<uint8_t>{0}, albedo), std::vector<uint8_t>{0});
+    EXPECT_EQ(albedo.values, before);
+    EXPECT_EQ(takeSlopeTrends(normals, lights, labels, std::vector<uint8_t>{1}, albedo), std::vector<uint8_t>{1});
+    EXPECT_NEAR(albedo.rgb(0, 0).x, albedo.rgb(2 * side - 1, 0).x, 1e-5);
 }
 
 } // namespace
