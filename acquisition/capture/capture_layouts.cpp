@@ -241,8 +241,7 @@ fs::path findPhotograph(const PicturePool& pool, const fs::path& lp, const fs::p
     for (const Part part : {Part([](const fs::path& file) { return file.filename().string(); }),
                             Part([](const fs::path& file) { return comparable(file.filename().string()); }),
                             Part([](const fs::path& file) { return comparable(file.stem().string()); })}) {
-        const fs::path found =
-            findInPool(pool, lp, name, [&](const fs::path& file) { return part(file) == part(name); });
+        fs::path found = findInPool(pool, lp, name, [&](const fs::path& file) { return part(file) == part(name); });
         if (!found.empty()) {
             return found;
         }

@@ -42,9 +42,9 @@ GltfMesh reliefMesh(Surface surface, const Image& height, float width)
             numbers[i] = static_cast<int64_t>(mesh.positions.size());
             mesh.positions.push_back(metres * (static_cast<float>(extent.width) * places[i] + middle));
             mesh.normals.push_back(map.normals[i]);
-            const auto column = static_cast<float>(i % map.width), row = static_cast<float>(i / map.width);
-            mesh.uvs.emplace_back((column + 0.5f) / static_cast<float>(map.width),
-                                  (row + 0.5f) / static_cast<float>(map.height));
+            const size_t column = i % map.width, row = i / map.width;
+            mesh.uvs.emplace_back((static_cast<float>(column) + 0.5f) / static_cast<float>(map.width),
+                                  (static_cast<float>(row) + 0.5f) / static_cast<float>(map.height));
         }
     }
     const auto add = [&](int64_t a, int64_t b, int64_t c) {

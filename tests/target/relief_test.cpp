@@ -49,7 +49,7 @@ Surface ballFront()
     surface.albedo = Image(kSide, kSide, 3, 1);
     for (int y = 0; y < kSide; ++y) {
         for (int x = 0; x < kSide; ++x) {
-            const glm::dvec2 at(x + 0.5 - kSide / 2 - kPlaceOfBall, kSide / 2 - y - 0.5);
+            const glm::dvec2 at(x + 0.5 - 0.5 * kSide - kPlaceOfBall, 0.5 * kSide - y - 0.5);
             const double square = glm::dot(at, at) / (kBall * kBall), z = std::sqrt(std::max(0.0, 1 - square));
             if (z > kLeastKnown) {
                 const size_t i = surface.normals.index(x, y);
@@ -172,7 +172,7 @@ TEST_F(ReliefTest, WhatJoinsAStepIsNotKnownAndHides)
                 ++floor;
             }
         }
-        const double strip = 0.5 * kStepHeight, flat = std::sqrt(0.75) * (kSide / 2 - 10);
+        const double strip = 0.5 * kStepHeight, flat = std::sqrt(0.75) * (0.5 * kSide - 10);
         EXPECT_NEAR(firstOfFloor - lastOfTable - 1, yaw < 0 ? strip : 0, 2) << yaw;
         EXPECT_NEAR(floor, yaw < 0 ? flat : flat - strip, 2) << yaw;
     }
