@@ -65,10 +65,10 @@ std::vector<uint8_t> takeSlopeTrends(const NormalMap& normals, const LocalLights
 void refitAlbedo(const Observations& block, const NormalMap& normals, const LocalLights& lights,
                  std::span<const uint8_t> labels, std::span<BrdfTable* const> tables, int threads, Image& albedo)
 {
-    if (tables.size() == 1 && tables[0]) {
-        refitAlbedo(block, normals, lights, *tables[0], threads, albedo);
-    }
     if (tables.size() == 1) {
+        if (tables[0]) {
+            refitAlbedo(block, normals, lights, *tables[0], threads, albedo);
+        }
         return;
     }
     forEachMaterial(
