@@ -362,7 +362,7 @@ void exportMesh(const ExportArguments& arguments, const Surface& surface)
         return;
     }
     const float width = arguments.parameters.width;
-    GltfMesh mesh = reliefMesh(surface, exportedHeight(surface, arguments.threads), width);
+    GltfMesh mesh = heightMesh(surface, exportedHeight(surface, arguments.threads), width);
     if (mesh.indices.empty()) {
         throw Error(arguments.surface, "has no normals side by side", "a surface with pixels");
     }

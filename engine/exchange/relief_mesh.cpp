@@ -25,7 +25,7 @@ template <class Value> void addBytes(const Value& value, std::string& bytes)
 
 } // namespace
 
-GltfMesh reliefMesh(Surface surface, const Image& height, float width)
+GltfMesh heightMesh(Surface surface, const Image& height, float width)
 {
     surface.height = height;
     surface.places.clear();

@@ -10,7 +10,7 @@ namespace nacre {
 // A surface as a mesh: a vertex for each pixel that has a normal, with that normal and its place in the picture, two
 // triangles between four of them. `height` as Surface's; on the rays of the surface's camera. `width`: metres of the
 // picture, whose middle is the origin. Where the height jumps, triangles join what is in front to what is behind.
-GltfMesh reliefMesh(Surface surface, const Image& height, float width);
+GltfMesh heightMesh(Surface surface, const Image& height, float width);
 
 // Binary PLY, or OBJ: the mesh as it is, texture coordinates from the bottom left corner. Whole or not at all. Throws
 // Error.
