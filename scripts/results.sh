@@ -25,7 +25,7 @@ normals() { # capture's name, photographs given or all, normals' arguments
 relighting() { # capture's name, photographs given, evaluate's arguments
     local name=$1 given=$2
     shift 2
-    "$nacre" evaluate "$@" --baselines --json "$work/e.json" --quiet 2>/dev/null
+    "$nacre" evaluate "$@" --baselines --json "$work/e.json" --force --quiet 2>/dev/null
     tr -d ' \n' <"$work/e.json" | sed 's/.*"methods":\[//' | grep -o '"method":"[^"]*","psnrColour":[0-9.]*' |
         sed 's/"method":"\([^"]*\)","psnrColour":\(.*\)/\1 \2/' |
         while read -r method value; do
