@@ -43,7 +43,7 @@ vec4 brdf(LightFrame light, vec3 view, vec3 n, vec3 m)
     if (kCoordinates == kNatural) {
         unit = unitFromNatural(naturalFromDirections(n, lightDirection(light), view));
     } else {
-        unit = unitInFrame(light, m, constants.tableSize.w);
+        unit = unitInFrame(light, m, TableDomain(kCoordinates, constants.tableSize.w));
     }
     return textureLod(table, texelFromUnit(unit, constants.tableSize.xyz), 0.0);
 }

@@ -23,7 +23,7 @@ float texelDiagonal(const TableDomain& domain, const glm::vec3& unit, const glm:
         return glm::length(step * glm::vec3(kHalfPi, kHalfPi, kPi));
     }
     const float thetaH = (2 * unit.x + step.x) * step.x * kHalfPi; // of x^2 over one step
-    return glm::length(glm::vec3(thetaH, step.y * domain.thetaDMax, step.z * kHalfPi));
+    return glm::length(glm::vec3(thetaH, step.y * domain.thetaDMax, step.z * largestPhiD(domain.coordinates)));
 }
 
 void countSamples(const BrdfSamples& samples, const BrdfTable& table, std::vector<float>& count)
@@ -58,11 +58,11 @@ TableRange tableRangeFromName(const std::string& name)
     throw Error("", "table range " + name + " is unknown", "captured, front or full", Error::kUsage);
 }
 
-TableDomain tableDomain(const std::vector<Light>& lights, const BakeOptions& options)
+TableDomain tableDomain(const std::vector<Light>& lights, TableRange range, int coordinates)
 {
-    TableDomain domain = capturedDomain(lights, options.coordinates);
-    if (options.range != TableRange::captured) {
-        domain.thetaDMax = std::max(domain.thetaDMax, options.range == TableRange::front ? kHalfPi / 2 : kHalfPi);
+    TableDomain domain = capturedDomain(lights, coordinates);
+    if (range != TableRange::captured) {
+        domain.thetaDMax = std::max(domain.thetaDMax, range == TableRange::front ? kHalfPi / 2 : kHalfPi);
     }
     return domain;
 }
@@ -72,7 +72,8 @@ glm::ivec3 tableSize(const TableDomain& domain)
     if (domain.coordinates == kNatural) {
         return {90, 90, 90};
     }
-    return {90, std::max(2, static_cast<int>(std::ceil(domain.thetaDMax * kRadian)) + 1), 23};
+    const int polar = std::max(2, static_cast<int>(std::ceil(domain.thetaDMax * kRadian)) + 1);
+    return {kThetaHTexels, polar, phiDTexels(domain)};
 }
 
 glm::ivec3 coarseTableSize(const TableDomain& domain)

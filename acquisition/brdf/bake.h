@@ -1,4 +1,5 @@
 #pragma once
+#include <optional>
 #include <string>
 
 #include "acquisition/brdf/interpolation.h"
@@ -15,7 +16,7 @@ enum class TableRange { captured, front, full };
 TableRange tableRangeFromName(const std::string& name);
 
 struct BakeOptions {
-    int coordinates = kHalfDifference;
+    std::optional<int> coordinates{}; // none: half-difference, or one-way where photographs ask for it (reciprocity.h)
     TableRange range = TableRange::captured;
     // Texels; 0: from the domain, see tableSize.
     glm::ivec3 size{0};
@@ -26,10 +27,9 @@ struct BakeOptions {
 TableDomain capturedDomain(const std::vector<Light>& lights, int coordinates);
 
 // What of the domain a table is to span.
-TableDomain tableDomain(const std::vector<Light>& lights, const BakeOptions& options);
+TableDomain tableDomain(const std::vector<Light>& lights, TableRange range, int coordinates);
 
-// 90 texels over thetaH (MERL's density), one a degree over thetaD, one every four degrees over the folded phiD, along
-// which f changes least. Natural: 90 x 90 x 90.
+// Over thetaH and phiD as brdf_samples.h has it, one a degree over thetaD. Natural: 90 x 90 x 90.
 glm::ivec3 tableSize(const TableDomain& domain);
 
 // Half of them: for a table of a few thousand samples, or one that others are made by.

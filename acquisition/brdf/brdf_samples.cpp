@@ -23,6 +23,11 @@ double scattered(uint32_t pixel)
 
 } // namespace
 
+int phiDTexels(const TableDomain& domain)
+{
+    return domain.coordinates == kOneWay ? 45 : 23;
+}
+
 BrdfSamples usableSamples(const BrdfSamples& samples)
 {
     BrdfSamples usable;
@@ -119,9 +124,10 @@ glm::vec4 embeddedConfiguration(const TableDomain& domain, const glm::vec3& unit
         const float g = std::sin(c.thetaI) * std::sin(c.thetaO);
         return {g * std::cos(c.phi), g * std::sin(c.phi), unit.x, c.thetaO};
     }
-    const HalfDifference c = halfDifferenceFromUnit(unit, domain.thetaDMax);
+    const HalfDifference c = halfDifferenceFromUnit(unit, domain);
     const float rg = unit.x * std::sin(c.thetaD);
-    return {rg * std::cos(2 * c.phiD), rg * std::sin(2 * c.phiD), unit.x, c.thetaD};
+    const float turn = kPi / largestPhiD(domain.coordinates) * c.phiD; // equal configurations meet
+    return {rg * std::cos(turn), rg * std::sin(turn), unit.x, c.thetaD};
 }
 
 float angularDistance(const TableDomain& domain, const glm::vec3& a, const glm::vec3& b)
@@ -131,8 +137,7 @@ float angularDistance(const TableDomain& domain, const glm::vec3& a, const glm::
         const float arc = (p.phi - q.phi) * std::sqrt(std::sin(p.thetaI) * std::sin(q.thetaI));
         return glm::length(glm::vec3(p.thetaI - q.thetaI, p.thetaO - q.thetaO, arc));
     }
-    const HalfDifference p = halfDifferenceFromUnit(a, domain.thetaDMax),
-                         q = halfDifferenceFromUnit(b, domain.thetaDMax);
+    const HalfDifference p = halfDifferenceFromUnit(a, domain), q = halfDifferenceFromUnit(b, domain);
     // An azimuth is an arc on the sphere of h and on that of d: the shorter one counts.
     const float sine = std::min(std::sin(p.thetaH) * std::sin(q.thetaH), std::sin(p.thetaD) * std::sin(q.thetaD));
     return glm::length(glm::vec3(p.thetaH - q.thetaH, p.thetaD - q.thetaD, (p.phiD - q.phiD) * std::sqrt(sine)));

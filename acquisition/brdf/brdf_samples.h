@@ -26,6 +26,10 @@ struct BrdfSamples {
     size_t size() const { return values.size(); }
 };
 
+// Texels of a full table: MERL's density over thetaH, one every four degrees over phiD, along which f changes least.
+constexpr int kThetaHTexels = 90;
+int phiDTexels(const TableDomain& domain);
+
 // Those with a positive weight and finite numbers. Throws Error where none is left.
 BrdfSamples usableSamples(const BrdfSamples& samples);
 

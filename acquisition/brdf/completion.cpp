@@ -15,7 +15,6 @@ namespace nacre {
 
 namespace {
 
-const glm::ivec2 kBorderSize(90, 23);
 constexpr float kInnerShare = 0.7f;
 constexpr size_t kMostTrustJudges = 2000;
 // Of the expected error, see completion.h; distances and normals in radians.
@@ -100,15 +99,15 @@ std::vector<float> shownWeights(const BrdfSamples& samples)
 CompletedBrdf::CompletedBrdf(const BrdfSamples& samples, const InterpolationOptions& options,
                              const MaterialPrior& prior)
     : domain_(samples.domain), prior_(conditionedPrior(prior, samples)), ratio_(ratioToPrior(samples, options, prior_)),
-      reach_(largestThetaD(samples))
+      reach_(largestThetaD(samples)), borderSize_(kThetaHTexels, phiDTexels(samples.domain))
 {
     if (reach_ < 1) {
         trust_ = trustInPrior(samples, options, prior);
-        borderRatios_.resize(static_cast<size_t>(kBorderSize.x) * kBorderSize.y);
+        borderRatios_.resize(static_cast<size_t>(borderSize_.x) * borderSize_.y);
         parallelFor(borderRatios_.size(), 64, options.threads, [&](size_t first, size_t end) {
             for (size_t i = first; i < end; ++i) {
-                const auto x = static_cast<int>(i) % kBorderSize.x, y = static_cast<int>(i) / kBorderSize.x;
-                const glm::vec2 place = glm::vec2(x, y) / glm::vec2(kBorderSize - 1);
+                const auto x = static_cast<int>(i) % borderSize_.x, y = static_cast<int>(i) / borderSize_.x;
+                const glm::vec2 place = glm::vec2(x, y) / glm::vec2(borderSize_ - 1);
                 borderRatios_[i] = ratio_({place.x, reach_, place.y});
             }
         });
@@ -117,15 +116,15 @@ CompletedBrdf::CompletedBrdf(const BrdfSamples& samples, const InterpolationOpti
 
 InterpolatedValue CompletedBrdf::ratioAtBorder(const glm::vec3& unit) const
 {
-    const glm::vec2 position = glm::vec2(unit.x, unit.z) * glm::vec2(kBorderSize - 1);
-    const glm::ivec2 low = glm::clamp(glm::ivec2(position), glm::ivec2(0), kBorderSize - 2);
+    const glm::vec2 position = glm::vec2(unit.x, unit.z) * glm::vec2(borderSize_ - 1);
+    const glm::ivec2 low = glm::clamp(glm::ivec2(position), glm::ivec2(0), borderSize_ - 2);
     const glm::vec2 t = position - glm::vec2(low);
     InterpolatedValue sum;
     for (int corner = 0; corner < 4; ++corner) {
         const int i = corner & 1, j = corner >> 1;
         const float weight = (i ? t.x : 1 - t.x) * (j ? t.y : 1 - t.y);
         const InterpolatedValue& node =
-            borderRatios_[static_cast<size_t>(low.y + j) * kBorderSize.x + static_cast<size_t>(low.x + i)];
+            borderRatios_[static_cast<size_t>(low.y + j) * borderSize_.x + static_cast<size_t>(low.x + i)];
         sum.value += weight * node.value;
         sum.nearest += weight * node.nearest;
     }

@@ -32,7 +32,8 @@ private:
     TableDomain domain_;
     ConditionedPrior prior_;
     BrdfInterpolant ratio_;
-    float reach_;                                 // largest thetaD of the samples, in unit coordinates
+    float reach_; // largest thetaD of the samples, in unit coordinates
+    glm::ivec2 borderSize_;
     std::vector<InterpolatedValue> borderRatios_; // at reach_, over (thetaH, phiD) as full tables have them
     float trust_ = 1;
 

@@ -36,7 +36,7 @@ BrdfInterpolant makeInterpolant(const BrdfSamples& samples, const InterpolationO
         return [regression](const glm::vec3& unit) { return regression->evaluate(unit); };
     }
     const BrdfSamples cells = condensedSamples(usableSamples(samples), options.threads);
-    if (options.completed && samples.domain.coordinates == kHalfDifference) {
+    if (options.completed && samples.domain.coordinates != kNatural) {
         const auto whole = std::make_shared<const CompletedBrdf>(cells, options, publishedMaterialPrior());
         return [whole](const glm::vec3& unit) { return whole->evaluate(unit); };
     }

@@ -19,7 +19,7 @@ glm::vec3 anglesFromUnit(const TableDomain& domain, const glm::vec3& unit)
         const Natural c = naturalFromUnit(unit);
         return {c.thetaI, c.thetaO, c.phi};
     }
-    const HalfDifference c = halfDifferenceFromUnit(unit, domain.thetaDMax);
+    const HalfDifference c = halfDifferenceFromUnit(unit, domain);
     return {c.thetaH, c.thetaD, c.phiD};
 }
 

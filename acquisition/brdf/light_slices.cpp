@@ -34,18 +34,21 @@ NACRE_ON_LANES Lanes quadrantShare(const Lanes& y, const Lanes& x)
     return isSteep ? 1 - share : share;
 }
 
-// Coordinates of (thetaH, phiD) in [0,1], which evenness and reciprocity fold phiD to.
+// Coordinates of (thetaH, phiD) in [0,1]. Reciprocity folds phiD to [0, pi/2]; one way it is pi less that where the
+// normal leans towards the light (light_frame.h).
 NACRE_VECTOR_CLONES
-void sliceCoordinates(const std::vector<float>* axes, const glm::vec3& n, float* halves, float* azimuths)
+void sliceCoordinates(const std::vector<float>* axes, const glm::vec3& n, bool isOneWay, float* halves, float* azimuths)
 {
     for (size_t i = 0; i < axes[0].size(); i += kLanes) {
         Lanes along[3];
         for (int axis = 0; axis < 3; ++axis) {
-            along[axis] = absolute(n.x * lanesAt(&axes[3 * axis][i]) + n.y * lanesAt(&axes[3 * axis + 1][i]) +
-                                   n.z * lanesAt(&axes[3 * axis + 2][i]));
+            along[axis] = n.x * lanesAt(&axes[3 * axis][i]) + n.y * lanesAt(&axes[3 * axis + 1][i]) +
+                          n.z * lanesAt(&axes[3 * axis + 2][i]);
         }
         const Lanes aside = rootOf(along[0] * along[0] + along[1] * along[1]);
-        const Lanes half = rootOf(quadrantShare(aside, along[2])), azimuth = quadrantShare(along[1], along[0]);
+        const Lanes half = rootOf(quadrantShare(aside, absolute(along[2]))),
+                    folded = quadrantShare(absolute(along[1]), absolute(along[0]));
+        const Lanes azimuth = !isOneWay ? folded : along[0] > 0 ? 1 - folded / 2 : folded / 2;
         for (int k = 0; k < kLanes; ++k) {
             halves[i + k] = half[k];
             azimuths[i + k] = azimuth[k];
@@ -56,7 +59,7 @@ void sliceCoordinates(const std::vector<float>* axes, const glm::vec3& n, float*
 } // namespace
 
 LightSlices::LightSlices(const BrdfTable& table, std::span<const Light> lights)
-    : size_(table.size.x, table.size.z), lightCount_(lights.size())
+    : size_(table.size.x, table.size.z), isOneWay_(table.domain.coordinates == kOneWay), lightCount_(lights.size())
 {
     for (std::vector<float>& component : axes_) {
         component.assign((lights.size() + kLanes - 1) / kLanes * kLanes, 0.0f);
@@ -89,7 +92,7 @@ void LightSlices::evaluate(const glm::vec3& normal, std::span<glm::vec3> values)
     thread_local std::vector<float> halves, azimuths;
     halves.resize(axes_[0].size());
     azimuths.resize(axes_[0].size());
-    sliceCoordinates(axes_, normal, halves.data(), azimuths.data());
+    sliceCoordinates(axes_, normal, isOneWay_, halves.data(), azimuths.data());
     const glm::vec3* slice = slices_.data();
     for (size_t i = 0; i < lightCount_; ++i, slice += static_cast<size_t>(size_.x) * size_.y) {
         const float x = std::min(halves[i], 1.0f) * static_cast<float>(size_.x - 1),

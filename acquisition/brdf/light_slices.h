@@ -18,6 +18,7 @@ public:
 
 private:
     glm::ivec2 size_; // of a slice
+    bool isOneWay_;
     size_t lightCount_;
     std::vector<glm::vec3> slices_; // [(light * size.y + k) * size.x + i]
     // Axes of d = (t, b, h) with l = cos(thetaD) h + sin(thetaD) t: component by component, light by light.

@@ -139,8 +139,7 @@ const MaterialPrior& publishedMaterialPrior()
 
 PriorNodes priorNodesAt(const TableDomain& domain, const glm::vec3& unit)
 {
-    const vec3 stretched(unit.x, unit.y * domain.thetaDMax / kPriorDomain.thetaDMax, unit.z);
-    const vec3 place = glm::clamp(stretched, 0.0f, 1.0f);
+    const vec3 place = unitFromHalfDifference(halfDifferenceFromUnit(unit, domain), kPriorDomain);
     const vec3 position = place * vec3(kPriorSize - 1);
     const glm::ivec3 low = glm::clamp(glm::ivec3(glm::floor(position)), glm::ivec3(0), kPriorSize - 2);
     const vec3 t = position - vec3(low);

@@ -151,7 +151,7 @@ std::vector<CompactBrdf> candidateModels(const ModelJudge& judge)
             candidates.emplace_back(std::move(small));
         }
     };
-    if (full.domain.coordinates == kHalfDifference) {
+    if (full.domain.coordinates != kNatural) {
         const BrdfTable plane = bivariateOf(full);
         for (const Shrink& shrink : kPlanes) {
             addTable(plane, shrunk(full.size, shrink));

@@ -9,7 +9,7 @@ namespace nacre {
 
 TableUnderLights tableUnder(const LocalLights& lights, const BrdfTable& table)
 {
-    if (lights.areDistant() && table.domain.coordinates == kHalfDifference) {
+    if (lights.areDistant() && table.domain.coordinates != kNatural) {
         return [slices = LightSlices(table, lights.reference())](const glm::vec3& normal, std::span<const Light>,
                                                                  std::span<glm::vec3> values) {
             slices.evaluate(normal, values);

@@ -8,7 +8,7 @@ namespace nacre {
 namespace {
 
 // In the order of FindingCode.
-constexpr std::array<std::string_view, 32> kNames = {"transfer-curve-left",
+constexpr std::array<std::string_view, 33> kNames = {"transfer-curve-left",
                                                      "transfer-curve-taken",
                                                      "lights-near",
                                                      "lights-ill-placed",
@@ -39,6 +39,7 @@ constexpr std::array<std::string_view, 32> kNames = {"transfer-curve-left",
                                                      "method-chosen",
                                                      "reflectance-chosen",
                                                      "one-albedo",
+                                                     "not-reciprocal",
                                                      "self-light"};
 static_assert(kNames.size() == static_cast<size_t>(FindingCode::selfLight) + 1);
 

@@ -40,6 +40,7 @@ enum class FindingCode {
     methodChosen,
     reflectanceChosen,
     oneAlbedo,
+    notReciprocal,
     selfLight,
 };
 

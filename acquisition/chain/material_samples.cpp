@@ -38,7 +38,7 @@ MaterialSamples startSamples(const Capture& capture, const LocalLights& lights, 
                              const BakeOptions& options)
 {
     BrdfSamples none;
-    none.domain = tableDomain(lights.over(capture), options);
+    none.domain = tableDomain(lights.over(capture), options.range, options.coordinates.value_or(kOneWay));
     return {std::vector<BrdfSamples>(segmentation.regions.size(), none), {}, Image(capture.width, capture.height, 3)};
 }
 

@@ -53,7 +53,8 @@ std::vector<BrdfSamples> samplesOf(const Measurement& measurement, const Observa
     const auto observations = static_cast<double>(sample.pixels.size() * sample.lightCount);
     forEachMaterial(sample, normals, factors, samples.size(), label, [&](size_t material, const BlockPart& part) {
         SampleCounts counts;
-        samples[material].domain = tableDomain(lights.reference(), measurement.options.bake);
+        samples[material].domain = tableDomain(lights.reference(), measurement.options.bake.range,
+                                               measurement.surface.materials[material].table.domain.coordinates);
         gatherSamples(part.seen, part.normals, part.albedo, lights, kMostSamples / observations,
                       measurement.options.samples, samples[material], counts);
     });

@@ -24,7 +24,7 @@ struct AcquireArguments {
     CaptureArguments common;
     std::filesystem::path output;
     std::string segment;
-    std::string coordinates = "half-difference";
+    std::string coordinates = "auto";
     std::vector<int> tableSize;
     InterpolationArguments interpolation;
     LadderArguments ladder;
@@ -43,11 +43,11 @@ AcquireOptions optionsOf(const AcquireArguments& arguments)
     options.castShadows = arguments.residual.castShadows();
     const char* known = options.interpolation.completed ? "front" : "captured";
     options.bake.range = tableRangeFromName(arguments.range.empty() ? known : arguments.range);
-    if (arguments.coordinates != "half-difference" && arguments.coordinates != "natural") {
+    options.bake.coordinates = coordinatesFromName(arguments.coordinates);
+    if (!options.bake.coordinates && arguments.coordinates != "auto") {
         throw Error("", fmt::format("--coordinates {} are not known", arguments.coordinates),
-                    "half-difference or natural", Error::kUsage);
+                    "auto, half-difference, one-way or natural", Error::kUsage);
     }
-    options.bake.coordinates = arguments.coordinates == "natural" ? kNatural : kHalfDifference;
     if (!arguments.tableSize.empty()) {
         const std::vector<int>& s = arguments.tableSize;
         constexpr int kLargest = 512;
@@ -139,7 +139,11 @@ void addAcquireCommand(CLI::App& app)
         ->group("BRDF");
     arguments->ladder.addTo(*command);
     arguments->residual.addTo(*command);
-    command->add_option("--coordinates", arguments->coordinates, "Coordinates of the table: half-difference or natural")
+    command
+        ->add_option("--coordinates", arguments->coordinates,
+                     "Coordinates of the table: half-difference (f(l, v) and f(v, l) are one), one-way (they are "
+                     "apart), natural, or "
+                     "auto: half-difference, or one-way where that predicts held-out photographs better")
         ->capture_default_str()
         ->group("BRDF");
     command

@@ -39,7 +39,8 @@ constexpr glm::vec3 kAxis(0, 0, 1);
 // The rectangle of coordinates that a slice shows.
 HalfDifference coordinatesOf(int x, int y, float phiD)
 {
-    HalfDifference c = halfDifferenceFromUnit({x / (kSliceSize - 1.0f), y / (kSliceSize - 1.0f), 0}, kHalfPi);
+    HalfDifference c =
+        halfDifferenceFromUnit({x / (kSliceSize - 1.0f), y / (kSliceSize - 1.0f), 0}, {kHalfDifference, kHalfPi});
     c.phiD = phiD;
     return c;
 }

@@ -286,9 +286,11 @@ std::string describeBytes(size_t bytes)
 
 std::string describe(const BrdfTable& table)
 {
-    const std::string domain = table.domain.coordinates == kNatural
-                                   ? "natural coordinates"
-                                   : fmt::format("thetaD to {:.1f} degrees", glm::degrees(table.domain.thetaDMax));
+    const std::string domain =
+        table.domain.coordinates == kNatural
+            ? "natural coordinates"
+            : fmt::format("{}, thetaD to {:.1f} degrees", nameOfCoordinates(table.domain.coordinates),
+                          glm::degrees(table.domain.thetaDMax));
     return fmt::format("{}x{}x{} ({}), {}, {:.0f} % of it measured, {:.0f} % known to {:.0f} %", table.size.x,
                        table.size.y, table.size.z, describeBytes(16 * table.values.size()), domain,
                        100 * coveredShare(table), 100 * certainShare(table), 100 * kUncertainError);
@@ -370,7 +372,7 @@ Json summaryOf(const Capture& capture, const Acquisition& acquisition)
     json["samplesWithoutNormal"] = counts.withoutNormal;
     json["samplesThinned"] = counts.thinned;
     json["tableSize"] = {table.size.x, table.size.y, table.size.z};
-    json["tableCoordinates"] = table.domain.coordinates == kNatural ? "natural" : "half-difference";
+    json["tableCoordinates"] = nameOfCoordinates(table.domain.coordinates);
     json["tableThetaDMaxDegrees"] = glm::degrees(table.domain.thetaDMax);
     json["tableCoveredShare"] = coveredShare(table);
     json["tableCertainShare"] = certainShare(table);

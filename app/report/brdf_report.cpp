@@ -50,7 +50,8 @@ void printTable(const BrdfTable& table)
                bytes / kMebibyte,
                isNatural(table)
                    ? "natural coordinates"
-                   : fmt::format("half-difference, thetaD to {:.1f} degrees", glm::degrees(table.domain.thetaDMax)));
+                   : fmt::format("{}, thetaD to {:.1f} degrees", nameOfCoordinates(table.domain.coordinates),
+                                 glm::degrees(table.domain.thetaDMax)));
     fmt::print("covered      {:.1f} % of the texels whose light and view are above the horizon\n",
                100 * coveredShare(table));
     fmt::print("certain      {:.1f} % of them: expected to be off by at most {:.0f} %\n", 100 * certainShare(table),
@@ -142,7 +143,7 @@ nlohmann::json jsonOf(const BrdfReport& report)
     }
     if (const BrdfTable* table = tableOf(report.source.model)) {
         json["table"] = {{"size", {table->size.x, table->size.y, table->size.z}},
-                         {"coordinates", isNatural(*table) ? "natural" : "half-difference"},
+                         {"coordinates", nameOfCoordinates(table->domain.coordinates)},
                          {"thetaDMaxDegrees", glm::degrees(table->domain.thetaDMax)},
                          {"covered", coveredShare(*table)},
                          {"certain", certainShare(*table)}};

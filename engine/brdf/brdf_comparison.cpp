@@ -48,7 +48,8 @@ std::vector<LightView> comparisonConfigurations(size_t count)
 {
     std::vector<LightView> configurations;
     for (size_t i = 1; i <= count; ++i) {
-        HalfDifference c = halfDifferenceFromUnit({radicalInverse(i, 2), radicalInverse(i, 3), 0}, kHalfPi);
+        HalfDifference c =
+            halfDifferenceFromUnit({radicalInverse(i, 2), radicalInverse(i, 3), 0}, {kHalfDifference, kHalfPi});
         c.phiD = (2 * radicalInverse(i, 5) - 1) * kPi;
         const LightView d = directionsFromHalfDifference(c);
         if (d.l.z >= kLeastComparedCosine && d.v.z >= kLeastComparedCosine) {

@@ -164,7 +164,7 @@ BrdfValue evaluateCovered(const BrdfModel& model, const vec3& n, const vec3& l, 
         return {evaluate(model, n, l, v), 1};
     }
     BrdfValue value = evaluateTable(*table, n, l, v);
-    if (table->domain.coordinates == kHalfDifference &&
+    if (table->domain.coordinates != kNatural &&
         halfDifferenceFromDirections(n, l, v).thetaD > table->domain.thetaDMax + kDomainTolerance) {
         value.confidence = 0;
     }

@@ -1,5 +1,7 @@
 #include "engine/brdf/brdf_table.h"
 
+#include <algorithm>
+#include <array>
 #include <sstream>
 
 #include <fmt/format.h>
@@ -14,6 +16,8 @@ namespace nacre {
 namespace {
 
 constexpr const char* kShapeAttribute = "nacre:brdfTable";
+// By the numbers of brdf_coords.h.
+constexpr std::array<const char*, 3> kCoordinateNames{"half-difference", "natural", "one-way"};
 
 BrdfTable tableOfShape(const std::filesystem::path& file, const std::string& shape)
 {
@@ -23,13 +27,13 @@ BrdfTable tableOfShape(const std::filesystem::path& file, const std::string& sha
     std::string coordinates;
     float thetaDMax = 0;
     words >> version >> size.x >> size.y >> size.z >> coordinates >> thetaDMax;
-    const bool named = coordinates == "natural" || coordinates == "half-difference";
-    if (!words || version != 1 || !named || glm::min(size.x, glm::min(size.y, size.z)) < 1 || !(thetaDMax > 0) ||
+    const std::optional<int> known = coordinatesFromName(coordinates);
+    if (!words || version != 1 || !known || glm::min(size.x, glm::min(size.y, size.z)) < 1 || !(thetaDMax > 0) ||
         thetaDMax > kHalfPi * 1.0001f) {
         throw Error(file, shape.empty() ? "holds no BRDF table" : "has a table shape that is not understood: " + shape,
                     fmt::format("the metadata '{}' of version 1", kShapeAttribute));
     }
-    return BrdfTable(size, TableDomain{coordinates == "natural" ? kNatural : kHalfDifference, thetaDMax});
+    return BrdfTable(size, TableDomain{*known, thetaDMax});
 }
 
 // Calls visit(texel, x, y) with each texel's place in the atlas: slice k starts at column k * size.x.
@@ -73,10 +77,22 @@ Image loadAtlas(const std::filesystem::path& file, const glm::ivec3& size, int c
 
 } // namespace
 
+std::string nameOfCoordinates(int coordinates)
+{
+    return kCoordinateNames[static_cast<size_t>(coordinates)];
+}
+
+std::optional<int> coordinatesFromName(const std::string& name)
+{
+    const auto found = std::find(kCoordinateNames.begin(), kCoordinateNames.end(), name);
+    return found == kCoordinateNames.end() ? std::nullopt
+                                           : std::optional(static_cast<int>(found - kCoordinateNames.begin()));
+}
+
 std::string describeShape(const BrdfTable& table)
 {
     return fmt::format("1 {} {} {} {} {:.9g}", table.size.x, table.size.y, table.size.z,
-                       table.domain.coordinates == kNatural ? "natural" : "half-difference", table.domain.thetaDMax);
+                       nameOfCoordinates(table.domain.coordinates), table.domain.thetaDMax);
 }
 
 LightView BrdfTable::directions(int i, int j, int k) const

@@ -1,5 +1,6 @@
 #pragma once
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -52,6 +53,10 @@ float sampleError(const BrdfTable& table, const glm::vec3& unit);
 
 // f(n, l, v) of the table; l and v above the horizon of n, or the border's value is returned.
 BrdfValue evaluateTable(const BrdfTable& table, const glm::vec3& n, const glm::vec3& l, const glm::vec3& v);
+
+// "half-difference", "natural", "one-way", as files have them; what is named otherwise is none.
+std::string nameOfCoordinates(int coordinates);
+std::optional<int> coordinatesFromName(const std::string& name);
 
 // Version, shape and domain on one line, as files' metadata have it (docs/formats.md).
 std::string describeShape(const BrdfTable& table);

@@ -17,18 +17,18 @@ bool isSymmetric(const BrdfModel& model)
                  : !std::holds_alternative<std::shared_ptr<const RglBrdf>>(model);
 }
 
-BrdfValue naturalValue(const BrdfModel& model, const Natural& c)
+BrdfValue valueAt(const BrdfModel& model, const LightView& d)
 {
-    const LightView d = directionsFromNatural(c);
     return evaluateCovered(model, kNormal, d.l, d.v);
 }
 
 BrdfValue texelValue(const BrdfModel& model, const TableDomain& domain, const vec3& unit)
 {
     if (domain.coordinates == kNatural) {
-        return naturalValue(model, naturalFromUnit(unit));
+        return valueAt(model, directionsFromNatural(naturalFromUnit(unit)));
     }
-    return foldedValue(model, halfDifferenceFromUnit(unit, domain.thetaDMax));
+    const HalfDifference c = halfDifferenceFromUnit(unit, domain);
+    return domain.coordinates == kOneWay ? valueAt(model, directionsFromHalfDifference(c)) : foldedValue(model, c);
 }
 
 template <class Visit> void forEachNeighbour(const BrdfTable& table, size_t texel, Visit&& visit)

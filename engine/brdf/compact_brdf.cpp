@@ -139,7 +139,7 @@ size_t bytesOf(const CompactBrdf& model)
 BrdfTable resampledTable(const BrdfTable& table, const glm::ivec3& size, const TableDomain& domain)
 {
     const float stretch =
-        domain.coordinates == kHalfDifference ? domain.thetaDMax / table.domain.thetaDMax : 1.0f; // of unit.y
+        domain.coordinates != kNatural ? domain.thetaDMax / table.domain.thetaDMax : 1.0f; // of unit.y
     constexpr float kRounding = 1e-5f;
     BrdfTable resampled(size, domain);
     resampled.error.resize(table.error.empty() ? 0 : resampled.values.size());

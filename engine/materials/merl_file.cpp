@@ -125,7 +125,7 @@ BrdfTable loadMerl(const std::filesystem::path& file, const glm::ivec3& size)
     const vec3 last = glm::max(vec3(size) - 1.0f, vec3(1.0f));
     for (size_t texel = 0; texel < table.values.size(); ++texel) {
         const glm::ivec3 at(texel % size.x, texel / size.x % size.y, texel / size.x / size.y);
-        const BrdfValue f = sampleFolded(cells, halfDifferenceFromUnit(vec3(at) / last, kHalfPi));
+        const BrdfValue f = sampleFolded(cells, halfDifferenceFromUnit(vec3(at) / last, table.domain));
         table.values[texel] = f.value;
         table.confidence[texel] = f.confidence;
     }

@@ -55,7 +55,7 @@ out vec4 code;
 vec4 brdf(LightFrame light, vec3 view, vec3 n, vec3 m)
 {
     vec3 unit = coordinates == kNatural ? unitFromNatural(naturalFromDirections(n, lightDirection(light), view))
-                                        : unitInFrame(light, m, tableShape.w);
+                                        : unitInFrame(light, m, TableDomain(coordinates, tableShape.w));
     return textureLod(table, texelFromUnit(unit, tableShape.xyz), 0.0);
 }
 

@@ -164,7 +164,8 @@ BakeBenchmark benchmarkBake(int threads)
     result.bareQueries = secondsOf([&] { kept = queryAll(samples, threads); });
     InterpolationOptions interpolation{.k = kNeighbours, .threads = threads};
     result.bake = secondsOf([&] {
-        const BakedBrdf baked = bakeBrdf(samples, interpolation, {.size = kSize, .threads = threads});
+        const BakedBrdf baked =
+            bakeBrdf(samples, interpolation, {.coordinates = {}, .size = kSize, .threads = threads});
         kept = baked.table.values.front().x;
     });
     return result;

@@ -96,7 +96,7 @@ BrdfTable bakedTable(const StressPhotographs& photographs, const NormalBlock& no
 {
     const std::vector<Light>& lights = photographs.reconciled.sample.lights;
     BrdfSamples samples;
-    samples.domain = tableDomain(lights, options.bake);
+    samples.domain = tableDomain(lights, options.bake.range, options.bake.coordinates.value_or(kHalfDifference));
     SampleCounts counts;
     gatherSamples(photographs.seen, normals, albedoFactors(photographs.seen, normals, lights), lights, 1,
                   options.samples, samples, counts);

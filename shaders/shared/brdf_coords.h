@@ -103,37 +103,45 @@ NACRE_FN LightView directionsFromNatural(Natural c)
     return r;
 }
 
-// Mirror symmetry of isotropic materials takes phiD to -phiD, reciprocity takes it to phiD + pi: together [0, pi/2].
-NACRE_FN float foldedPhiD(float phiD)
-{
-    float a = abs(phiD);
-    return min(a, kPi - a);
-}
-
-// Which coordinates a table is baked in; the values are stored in files.
-const int kHalfDifference = 0;
+// Which coordinates a table is baked in; the values are numbers in pages and shaders, names in files.
+const int kHalfDifference = 0; // of a reciprocal BRDF, f(l, v) = f(v, l)
 const int kNatural = 1;
+const int kOneWay = 2; // half-difference, f(l, v) and f(v, l) in texels of their own
 
 // The part of the coordinates that a table spans.
 struct TableDomain {
-    int coordinates; // kHalfDifference or kNatural
-    float thetaDMax; // half-difference only: largest thetaD on the grid, (0, pi/2]
+    int coordinates; // kHalfDifference, kNatural or kOneWay
+    float thetaDMax; // all but natural: largest thetaD on the grid, (0, pi/2]
 };
+
+// Mirror symmetry of isotropic materials takes phiD to -phiD, reciprocity takes it to phiD + pi: together [0, pi/2].
+NACRE_FN float largestPhiD(int coordinates)
+{
+    return coordinates == kOneWay ? kPi : kHalfPi;
+}
+
+NACRE_FN float foldedPhiD(float phiD, int coordinates)
+{
+    float a = abs(phiD);
+    return coordinates == kOneWay ? a : min(a, kPi - a);
+}
 
 // Half-difference to the unit cube: the square root spends the texels on the highlight (MERL's mapping,
 // Matusik et al., A Data-Driven Reflectance Model, 2003). What lies beyond thetaDMax is clamped to the border.
-NACRE_FN vec3 unitFromHalfDifference(HalfDifference c, float thetaDMax)
+NACRE_FN vec3 unitFromHalfDifference(HalfDifference c, TableDomain domain)
 {
-    return clamp(vec3(sqrt(max(c.thetaH, 0.0f) / kHalfPi), c.thetaD / thetaDMax, foldedPhiD(c.phiD) / kHalfPi), 0.0f,
-                 1.0f);
+    float phiD = foldedPhiD(c.phiD, domain.coordinates);
+    return clamp(
+        vec3(sqrt(max(c.thetaH, 0.0f) / kHalfPi), c.thetaD / domain.thetaDMax, phiD / largestPhiD(domain.coordinates)),
+        0.0f, 1.0f);
 }
 
-NACRE_FN HalfDifference halfDifferenceFromUnit(vec3 unit, float thetaDMax)
+NACRE_FN HalfDifference halfDifferenceFromUnit(vec3 unit, TableDomain domain)
 {
     HalfDifference c;
     c.thetaH = unit.x * unit.x * kHalfPi;
-    c.thetaD = unit.y * thetaDMax;
-    c.phiD = unit.z * kHalfPi;
+    c.thetaD = unit.y * domain.thetaDMax;
+    c.phiD = unit.z * largestPhiD(domain.coordinates);
     return c;
 }
 
@@ -157,7 +165,7 @@ NACRE_FN vec3 unitFromDirections(TableDomain domain, vec3 n, vec3 l, vec3 v)
     if (domain.coordinates == kNatural) {
         return unitFromNatural(naturalFromDirections(n, l, v));
     }
-    return unitFromHalfDifference(halfDifferenceFromDirections(n, l, v), domain.thetaDMax);
+    return unitFromHalfDifference(halfDifferenceFromDirections(n, l, v), domain);
 }
 
 NACRE_FN LightView directionsFromUnit(TableDomain domain, vec3 unit)
@@ -165,7 +173,7 @@ NACRE_FN LightView directionsFromUnit(TableDomain domain, vec3 unit)
     if (domain.coordinates == kNatural) {
         return directionsFromNatural(naturalFromUnit(unit));
     }
-    return directionsFromHalfDifference(halfDifferenceFromUnit(unit, domain.thetaDMax));
+    return directionsFromHalfDifference(halfDifferenceFromUnit(unit, domain));
 }
 
 // Half texels: 0 and 1 map to the centres of the first and the last texel. Texture coordinates in [0, 1].

@@ -66,14 +66,19 @@ NACRE_FN float quadrantAtan(float y, float x)
     return y > x ? kHalfPi - r : r;
 }
 
-// unitFromHalfDifference of a normal in the frame. phiD is folded to [0, pi/2]. A normal below the half vector's
-// horizon (z < 0, under lights that it does not see) answers as one on it.
-NACRE_FN vec3 unitInFrame(LightFrame f, vec3 m, float thetaDMax)
+// unitFromHalfDifference of a normal in the frame. The axis x of brdf_coords.h points from n to h, so that phiD is 0
+// where the normal leans away from the light, and pi where towards it. A normal below the half vector's horizon (z < 0,
+// under lights that it does not see) answers as one on it.
+NACRE_FN vec3 unitInFrame(LightFrame f, vec3 m, TableDomain domain)
 {
     float sine = sqrt(m.x * m.x + m.y * m.y);
     float thetaH = quadrantAtan(sine, max(m.z, 0.0f));
-    float phiD = f.irradiance.w * quadrantAtan(abs(m.y), abs(m.x));
-    return vec3(sqrt(thetaH / kHalfPi), min(f.across.w / thetaDMax, 1.0f), phiD / kHalfPi);
+    float phiD = quadrantAtan(abs(m.y), abs(m.x));
+    if (domain.coordinates == kOneWay && m.x > 0.0f) {
+        phiD = kPi - phiD;
+    }
+    return vec3(sqrt(thetaH / kHalfPi), min(f.across.w / domain.thetaDMax, 1.0f),
+                f.irradiance.w * phiD / largestPhiD(domain.coordinates));
 }
 
 NACRE_SHARED_END

@@ -31,18 +31,19 @@ Material judgedMaterial(const LambertGgx& model, TableDomain domain, const std::
     Material material = materialOf(model, domain, {24, 12, 8});
     material.name = name;
     for (size_t i = 0; i < material.table.values.size(); ++i) {
-        material.table.error.push_back(0.4f * static_cast<float>(i % 24) / 23); // uncertain away from the highlight
+        material.table.values[i] *= 1 + 0.1f * static_cast<float>(i / (24 * 12)); // along phiD
+        material.table.error.push_back(0.4f * static_cast<float>(i % 24) / 23);   // uncertain away from the highlight
     }
     return material;
 }
 
-// Two materials side by side, one of them in natural coordinates; factors, a residual layer, and a height whose steps
+// Two materials side by side, one-way and in natural coordinates; factors, a residual layer, and a height whose steps
 // cast shadows. A page stores a part of the picture, which is not in its middle.
 Surface pageSurface()
 {
     Surface surface = transferredSurface(bumpyNormals(kWidth, kHeight), glossyMaterial());
     surface.materials = {judgedMaterial({.diffuse = {0.4f, 0.3f, 0.2f}, .specular = glm::vec3(0.05f), .alpha = 0.3f},
-                                        {kHalfDifference, kHalfPi / 2}, kHostile),
+                                        {kOneWay, kHalfPi / 2}, kHostile),
                          judgedMaterial({.diffuse = {0.1f, 0.2f, 0.4f}, .specular = glm::vec3(0.2f), .alpha = 0.5f},
                                         {kNatural, kHalfPi}, "second")};
     surface.albedo = Image(kWidth, kHeight, 3);

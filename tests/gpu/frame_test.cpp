@@ -38,6 +38,13 @@ TEST_F(FrameTest, NaturalCoordinates)
     expectTwins(scene);
 }
 
+TEST_F(FrameTest, OneWayCoordinates)
+{
+    Scene scene = glossyScene(256, 256);
+    scene.surface.materials = {oneWayMaterial()};
+    expectTwins(scene);
+}
+
 TEST_F(FrameTest, OddAndNarrowSizes)
 {
     expectTwins(glossyScene(257, 31));

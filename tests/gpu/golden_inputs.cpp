@@ -44,8 +44,7 @@ Material satin(const LambertGgx& model)
         const auto texel = static_cast<int>(i);
         const glm::ivec3 at(texel % table.size.x, texel / table.size.x % table.size.y,
                             texel / (table.size.x * table.size.y));
-        const HalfDifference c =
-            halfDifferenceFromUnit(glm::vec3(at) / glm::vec3(table.size - 1), table.domain.thetaDMax);
+        const HalfDifference c = halfDifferenceFromUnit(glm::vec3(at) / glm::vec3(table.size - 1), table.domain);
         // phiD is undefined where either angle is 0: the hue's turn fades out there.
         const float turn = std::sin(c.thetaH) * std::sin(c.thetaD) * std::cos(2 * c.phiD);
         table.values[i] += model.diffuse / kPi * turn * glm::vec3(1.2f, 0.2f, -1.2f);

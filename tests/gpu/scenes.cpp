@@ -28,6 +28,16 @@ Material glossyMaterial(TableDomain domain)
     return materialOf(model, domain, {64, 24, 16});
 }
 
+Material oneWayMaterial()
+{
+    Material material = glossyMaterial({kOneWay, kHalfPi});
+    const size_t slice = material.table.values.size() / static_cast<size_t>(material.table.size.z);
+    for (size_t i = 0; i < material.table.values.size(); ++i) {
+        material.table.values[i] *= 1 + 0.1f * static_cast<float>(i / slice);
+    }
+    return material;
+}
+
 NormalMap bumpyNormals(int width, int height)
 {
     NormalMap map(width, height);

@@ -10,6 +10,9 @@ Material materialOf(const BrdfModel& model, TableDomain domain, glm::ivec3 size)
 // A narrow coloured highlight over a coloured diffuse part.
 Material glossyMaterial(TableDomain domain = {kHalfDifference, kHalfPi / 2});
 
+// The same, brighter where the normal leans towards the light than where it leans to the camera.
+Material oneWayMaterial();
+
 // Normals of every kind in one picture: a sphere whose rim reaches beyond the horizon, waves on it, a hole.
 NormalMap bumpyNormals(int width, int height);
 

@@ -106,15 +106,19 @@ TEST(BrdfCoords, FoldIdentifiesMirrorAndReciprocalPairs)
         const HalfDifference mirrored = halfDifferenceFromDirections(n, vec3(l.x, -l.y, l.z), vec3(v.x, -v.y, v.z));
         // phiD is ill-conditioned where h meets n or l meets v; 1e-3 rad holds for this set elsewhere.
         if (c.thetaH > 1e-2f && c.thetaD > 1e-2f) {
-            EXPECT_NEAR(foldedPhiD(c.phiD), foldedPhiD(swapped.phiD), 1e-3f);
-            EXPECT_NEAR(foldedPhiD(c.phiD), foldedPhiD(mirrored.phiD), 1e-3f);
+            const float folded = foldedPhiD(c.phiD, kHalfDifference), oneWay = foldedPhiD(c.phiD, kOneWay);
+            EXPECT_NEAR(folded, foldedPhiD(swapped.phiD, kHalfDifference), 1e-3f);
+            EXPECT_NEAR(folded, foldedPhiD(mirrored.phiD, kHalfDifference), 1e-3f);
+            EXPECT_NEAR(oneWay, kPi - foldedPhiD(swapped.phiD, kOneWay), 1e-3f);
+            EXPECT_NEAR(oneWay, foldedPhiD(mirrored.phiD, kOneWay), 1e-3f);
         }
     }
 }
 
 TEST(BrdfCoords, UnitCubeAndTexelsRoundTrip)
 {
-    const TableDomain domains[] = {{kHalfDifference, 0.4f}, {kHalfDifference, kHalfPi}, {kNatural, kHalfPi}};
+    const TableDomain domains[] = {
+        {kHalfDifference, 0.4f}, {kHalfDifference, kHalfPi}, {kNatural, kHalfPi}, {kOneWay, 0.4f}, {kOneWay, kHalfPi}};
     const vec3 size(90, 23, 45);
     for (const TableDomain& domain : domains) {
         for (const float a : {0.01f, 0.3f, 0.6f}) {

@@ -165,13 +165,17 @@ TEST(WholeOutput, RefusesWhatExistsAndReplacesOnRequest)
 TEST(TableFiles, RoundTripIsExact)
 {
     const TempFolder folder;
-    const BrdfTable table = smallTable();
-    saveBrdfTable(folder / "t.exr", table);
-    const BrdfTable back = loadBrdfTable(folder / "t.exr");
-    EXPECT_EQ(back.size, table.size);
-    EXPECT_EQ(back.domain.thetaDMax, table.domain.thetaDMax);
-    EXPECT_EQ(back.values, table.values);
-    EXPECT_EQ(back.confidence, table.confidence);
+    for (const int coordinates : {kHalfDifference, kNatural, kOneWay}) {
+        BrdfTable table = smallTable();
+        table.domain.coordinates = coordinates;
+        saveBrdfTable(folder / "t.exr", table);
+        const BrdfTable back = loadBrdfTable(folder / "t.exr");
+        EXPECT_EQ(back.size, table.size);
+        EXPECT_EQ(back.domain.coordinates, coordinates);
+        EXPECT_EQ(back.domain.thetaDMax, table.domain.thetaDMax);
+        EXPECT_EQ(back.values, table.values);
+        EXPECT_EQ(back.confidence, table.confidence);
+    }
     saveImage(folder / "plain.exr", gradient(4, 4, 4), PixelType::float32);
     expectError([&] { loadBrdfTable(folder / "plain.exr"); }, {"plain.exr: holds no BRDF table"});
 }

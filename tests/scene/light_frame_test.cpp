@@ -33,27 +33,32 @@ TEST(LightFrame, HasTheGeneralFormulasCoordinates)
             if (dot(n, l) <= 0 || dot(n, v) <= 0) {
                 continue;
             }
-            const vec3 expected = unitFromHalfDifference(halfDifferenceFromDirections(n, l, v), 1.0f);
-            const vec3 unit = unitInFrame(frame, m, 1.0f);
-            ++compared;
-            EXPECT_NEAR(unit.x, expected.x, 2e-6f);
-            EXPECT_NEAR(unit.y, expected.y, 2e-6f);
-            // The azimuth about h is as uncertain as n x h is short.
-            EXPECT_NEAR(unit.z * length(cross(n, vec3(frame.half_))), expected.z * length(cross(n, vec3(frame.half_))),
-                        2e-6f);
+            for (const int coordinates : {kHalfDifference, kOneWay}) {
+                const TableDomain domain{coordinates, 1.0f};
+                const vec3 expected = unitFromDirections(domain, n, l, v), unit = unitInFrame(frame, m, domain);
+                ++compared;
+                EXPECT_NEAR(unit.x, expected.x, 2e-6f);
+                EXPECT_NEAR(unit.y, expected.y, 2e-6f);
+                // The azimuth about h is as uncertain as n x h is short.
+                const float sine = length(cross(n, vec3(frame.half_)));
+                EXPECT_NEAR(unit.z * sine, expected.z * sine, 2e-6f);
+            }
         }
     }
-    EXPECT_GT(compared, 10000);
+    EXPECT_GT(compared, 20000);
 }
 
 TEST(LightFrame, LightBesideTheCameraHasNoPhiD)
 {
     const vec3 v(0, 0, 1), n = direction(3, 0.3f);
     const LightFrame frame = lightFrame(v, v, vec3(1));
-    const vec3 unit = unitInFrame(frame, normalInFrame(frame, n), kHalfPi);
-    EXPECT_EQ(unit.y, 0);
-    EXPECT_EQ(unit.z, 0);
-    EXPECT_NEAR(unit.x, unitFromHalfDifference(halfDifferenceFromDirections(n, v, v), kHalfPi).x, 1e-6f);
+    for (const int coordinates : {kHalfDifference, kOneWay}) {
+        const TableDomain domain{coordinates, kHalfPi};
+        const vec3 unit = unitInFrame(frame, normalInFrame(frame, n), domain);
+        EXPECT_EQ(unit.y, 0);
+        EXPECT_EQ(unit.z, 0);
+        EXPECT_NEAR(unit.x, unitFromDirections(domain, n, v, v).x, 1e-6f);
+    }
 }
 
 TEST(LightFrame, QuadrantAtanIsAtan)
