@@ -88,6 +88,40 @@ TEST(SyntheticChain, SpheresCalibrateLightsWithin0Point3DegreesAndIntensitiesWit
     }
 }
 
+// Multiplies what a sphere's photographs show by 1 + share (n.l - n.v), whose sign changes where l and v change places.
+void breakReciprocity(const Capture& capture, float share)
+{
+    const NormalMap truth = loadTrueNormals(capture.truthNormals);
+    for (size_t i = 0; i < capture.photographs.size(); ++i) {
+        Image picture = loadImage(capture.photographs[i].exposures.front().file);
+        for (size_t p = 0; p < truth.normals.size(); ++p) {
+            const glm::vec3& n = truth.normals[p];
+            const float factor = 1 + share * (glm::dot(n, capture.lights[i].direction) - n.z);
+            for (int c = 0; c < 3; ++c) {
+                picture.values[p * static_cast<size_t>(picture.channels) + static_cast<size_t>(c)] *= factor;
+            }
+        }
+        saveImage(capture.photographs[i].exposures.front().file, picture, PixelType::float32);
+    }
+}
+
+TEST(SyntheticChain, OnlyABrdfThatIsNotReciprocalIsKeptOneWay)
+{
+    const TempFolder folder;
+    SynthOptions synth = exactSphere();
+    synth.width = synth.height = 64;
+    const Capture capture = writeAndLoad(folder, synth);
+    AcquireOptions options;
+    options.castShadows = false;
+    options.residual.choice = ResidualChoice::none;
+    for (const float share : {0.0f, 0.5f}) {
+        breakReciprocity(capture, share);
+        const Acquisition result = acquire(capture, options, kNoProgress);
+        EXPECT_EQ(result.surface.materials.front().table.domain.coordinates, share > 0 ? kOneWay : kHalfDifference);
+        EXPECT_EQ(contains(result.estimate.report.findings, FindingCode::notReciprocal), share > 0);
+    }
+}
+
 TEST(SyntheticChainSlow, ADiffuseSphereOfKnownReflectanceMakesTheScaleAbsolute)
 {
     const TempFolder folder;
