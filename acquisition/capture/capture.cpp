@@ -141,6 +141,23 @@ void requireLabelSize(const Capture& capture)
     }
 }
 
+// Without one, the alpha of photographs that are cut out, as the first has it; else the whole picture.
+void assignMask(LayoutContents& contents)
+{
+    Capture& capture = contents.capture;
+    const bool isGiven = !contents.masks.empty();
+    const fs::path& file = isGiven ? contents.masks[0] : capture.photographs[0].exposures[0].file;
+    const MaskPicture mask = isGiven ? loadMask(file, capture.window.fileWidth, capture.window.fileHeight)
+                                     : MaskPicture{alphaMask(file), true};
+    if (mask.inside.empty()) {
+        capture.mask.assign(static_cast<size_t>(capture.width) * capture.height, uint8_t{1});
+    } else {
+        capture.mask = windowedMask(mask.inside, capture, file);
+        capture.maskSource = file.filename().string() + (mask.isAlpha ? ", its alpha" : "");
+    }
+    capture.maskPixels = std::count(capture.mask.begin(), capture.mask.end(), uint8_t{1});
+}
+
 // The marks have to leave normals that can be smoothed in, and to mark something.
 void loadSmooth(Capture& capture)
 {
@@ -217,16 +234,7 @@ Capture loadCapture(const fs::path& folder, const CaptureOptions& options)
     requireLabelSize(capture);
     requireSphereMask(capture.mirrorSphere);
     requireSphereMask(capture.diffuseSphere);
-    const FileWindow& window = capture.window;
-    if (contents.masks.empty()) {
-        capture.mask.assign(static_cast<size_t>(capture.width) * capture.height, uint8_t{1});
-    } else {
-        const fs::path& file = contents.masks[0];
-        const MaskPicture mask = loadMask(file, window.fileWidth, window.fileHeight);
-        capture.mask = windowedMask(mask.inside, capture, file);
-        capture.maskSource = file.filename().string() + (mask.isAlpha ? ", its alpha" : "");
-    }
-    capture.maskPixels = std::count(capture.mask.begin(), capture.mask.end(), uint8_t{1});
+    assignMask(contents);
     loadSmooth(capture);
     if (contents.offset) {
         applyOffset(capture, *contents.offset);

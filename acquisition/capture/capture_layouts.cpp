@@ -304,11 +304,18 @@ PicturePool picturesBelow(const fs::path& folder)
     return pool;
 }
 
-bool listsAny(const fs::path& lp, const fs::path& folder, const PicturePool& pool)
+// Whether a picture has the name of a listed one, whatever its folder.
+bool listsAny(const fs::path& lp, const PicturePool& pool)
 {
+    std::set<std::string> stems;
+    for (const std::vector<fs::path>& pictures : pool) {
+        for (const fs::path& file : pictures) {
+            stems.insert(comparable(file.stem().string()));
+        }
+    }
     const LightFile lights = loadLpList(lp);
     return std::any_of(lights.photographs.begin(), lights.photographs.end(), [&](const std::string& name) {
-        return !findPhotograph(pool, lp, folder, fs::path(withSlashes(name)).filename()).empty();
+        return stems.contains(comparable(fs::path(withSlashes(name)).stem().string()));
     });
 }
 
@@ -317,7 +324,7 @@ std::optional<LayoutContents> readLpAbove(const fs::path& folder)
 {
     const PicturePool pool = picturesBelow(folder);
     for (const fs::path& lp : lpFilesIn(fs::weakly_canonical(folder).parent_path())) {
-        if (listsAny(lp, folder, pool)) {
+        if (listsAny(lp, pool)) {
             return readLp(lp, folder, pool);
         }
     }
@@ -351,9 +358,9 @@ LayoutContents readLpOfFolder(const fs::path& lp, const fs::path& folder)
 {
     const PicturePool pool = picturesBelow(folder);
     const fs::path above = fs::weakly_canonical(folder).parent_path();
-    if (pool[0].empty() && !listsAny(lp, folder, pool)) {
+    if (pool[0].empty() && !listsAny(lp, pool)) {
         const PicturePool more = picturesBelow(above);
-        if (listsAny(lp, above, more)) {
+        if (listsAny(lp, more)) {
             return readLp(lp, above, more);
         }
     }

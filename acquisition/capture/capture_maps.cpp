@@ -33,11 +33,9 @@ template <class Visit> void forEachBoxPixel(const Capture& capture, Visit&& visi
 
 } // namespace
 
-namespace {
-
-// An alpha channel that has both is a mask, whatever its colours are; empty where there is none.
-std::vector<uint8_t> alphaMask(const std::filesystem::path& file, int channels)
+std::vector<uint8_t> alphaMask(const std::filesystem::path& file)
 {
+    const int channels = readImageHeader(file).channels;
     if (channels != 2 && channels != 4) {
         return {};
     }
@@ -50,8 +48,6 @@ std::vector<uint8_t> alphaMask(const std::filesystem::path& file, int channels)
     return *least == *most ? std::vector<uint8_t>() : mask;
 }
 
-} // namespace
-
 MaskPicture loadMask(const std::filesystem::path& file, int width, int height)
 {
     // Masks hold shape, not light: no curve. By rows, since a mask is as large as its photographs.
@@ -63,7 +59,7 @@ MaskPicture loadMask(const std::filesystem::path& file, int width, int height)
                     fmt::format("is {} x {}{}", header.width, header.height, isTurned ? ", turned on its side" : ""),
                     fmt::format("{} x {} as the photographs", width, height));
     }
-    std::vector<uint8_t> mask = alphaMask(file, header.channels);
+    std::vector<uint8_t> mask = alphaMask(file);
     if (!mask.empty()) {
         return {std::move(mask), true};
     }

@@ -8,6 +8,9 @@
 
 namespace nacre {
 
+// 1 where a picture's alpha is above one half; empty where it has none that has both, whatever its colours are.
+std::vector<uint8_t> alphaMask(const std::filesystem::path& file);
+
 struct MaskPicture {
     std::vector<uint8_t> inside; // 1 on the object
     bool isAlpha = false;        // told by the alpha channel, not by colours

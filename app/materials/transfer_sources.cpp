@@ -6,7 +6,6 @@
 #include <charconv>
 #include <filesystem>
 #include <map>
-#include <sstream>
 #include <string>
 #include <vector>
 
@@ -108,18 +107,28 @@ bool isIndexed(const std::string& piece)
     return equals != std::string::npos && equals > 0 && std::all_of(piece.begin(), piece.begin() + equals, isDigit);
 }
 
+// Up to a comma; to the last one before which a file of that name exists, where names have commas.
+size_t pieceLength(const std::string& text, size_t start)
+{
+    size_t length = std::min(text.find(',', start), text.size()) - start;
+    for (size_t end = text.size(); end > start + length; end = text.rfind(',', end - 1)) {
+        const std::string name = text.substr(start, end - start);
+        if (std::filesystem::exists(name.substr(0, name.find('#')))) {
+            return name.size();
+        }
+    }
+    return length;
+}
+
 template <typename GoesOn> std::vector<std::string> split(const std::vector<std::string>& texts, const GoesOn& goesOn)
 {
     std::vector<std::string> values;
     for (const std::string& text : texts) {
-        if (std::filesystem::exists(text.substr(0, text.find('#')))) { // a name with commas
-            values.push_back(text);
-            continue;
-        }
-        std::istringstream stream(text);
-        bool isFirst = true;
-        for (std::string piece; std::getline(stream, piece, ','); isFirst = false) {
-            if (!isFirst && goesOn(values.back(), piece)) {
+        const size_t own = values.size();
+        for (size_t start = 0; start < text.size();) {
+            const std::string piece = text.substr(start, pieceLength(text, start));
+            start += piece.size() + 1;
+            if (values.size() > own && goesOn(values.back(), piece)) {
                 values.back() += "," + piece;
             } else {
                 values.push_back(piece);

@@ -118,10 +118,11 @@ bool isUtf8(std::string_view text)
 
 std::string inUtf8(std::string text)
 {
-    const char* encoding = text.starts_with("\xff\xfe")   ? "utf-16le"
-                           : text.starts_with("\xfe\xff") ? "utf-16be"
-                           : isUtf8(text)                 ? nullptr
-                                                          : "windows-1252";
+    const bool isWide = text.size() > 1; // what begins with a letter has a 0 beside it in UTF-16 alone
+    const char* encoding = text.starts_with("\xff\xfe") || (isWide && text[1] == 0)   ? "utf-16le"
+                           : text.starts_with("\xfe\xff") || (isWide && text[0] == 0) ? "utf-16be"
+                           : isUtf8(text)                                             ? nullptr
+                                                                                      : "windows-1252";
     if (!encoding) {
         return text;
     }
@@ -196,12 +197,20 @@ NumbersAtEnd takeNumbersFromEnd(std::string_view line, size_t most)
     return numbersAtEnd(line, most, kBlanksAndCommas, parseNumber);
 }
 
-NumberTable loadNumberTable(const fs::path& file)
+std::vector<std::string> loadTableLines(const fs::path& file)
 {
     std::vector<std::string> lines = loadTextLines(file);
+    lines.erase(std::remove_if(lines.begin(), lines.end(), [](const auto& line) { return line[0] == '#'; }),
+                lines.end());
     if (lines.size() > 1 && isHeading(lines[0])) {
         lines.erase(lines.begin());
     }
+    return lines;
+}
+
+NumberTable loadNumberTable(const fs::path& file)
+{
+    const std::vector<std::string> lines = loadTableLines(file);
     NumberTable rows;
     for (const std::string& line : lines) {
         rows.push_back(parseRow(file, line));

@@ -7,8 +7,8 @@
 
 namespace nacre {
 
-// In UTF-8, from UTF-8 or, by its byte order mark, UTF-16, or Windows-1252 where it is neither.
-// The lines of a text file without line ends and the white space around them; blank lines are left out.
+// In UTF-8, from UTF-8, UTF-16 (by its byte order mark, or a 0 in its first letter), or Windows-1252 where it is
+// neither. The lines of a text file without line ends and the white space around them; blank lines are left out.
 std::vector<std::string> loadTextLines(const std::filesystem::path& file);
 
 std::string lowerCase(std::string_view text);
@@ -30,7 +30,10 @@ struct NumbersAtEnd {
 };
 NumbersAtEnd takeNumbersFromEnd(std::string_view line, size_t most);
 
-// Lines of numbers, all of one length; a first line of words is a heading. A first line of one number is the count of
+// Those of a table: without a heading, which is a first line of words, and comments, which begin with #.
+std::vector<std::string> loadTableLines(const std::filesystem::path& file);
+
+// Such lines of numbers, all of one length. A first line of one number is the count of
 // the lines (or of the columns, where there are three lines), which is checked and left out. Throws Error; the table is
 // not empty.
 using NumberTable = std::vector<std::vector<double>>;

@@ -116,10 +116,10 @@ std::string clampRadiance(Image& image)
         value = value > 0 ? largest : 0;
         first = count++ == 0 ? i / image.channels : first;
     }
-    return count == 0
-               ? ""
-               : fmt::format("{} values are negative or not finite, the first at pixel {}, {}: taken for 0 and {:g}",
-                             count, first % image.width, first / image.width, largest);
+    return count == 0 ? ""
+                      : fmt::format("{} negative or not finite, the first at pixel {}, {}: taken for 0 and {:g}",
+                                    count == 1 ? "1 value is" : fmt::format("{} values are", count),
+                                    first % image.width, first / image.width, largest);
 }
 
 } // namespace

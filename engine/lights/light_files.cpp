@@ -143,24 +143,6 @@ LightFile loadOpenCvMatrix(const fs::path& file)
 
 } // namespace
 
-LightFile loadLightFile(const fs::path& file)
-{
-    const std::string extension = lowerCase(file.extension().string());
-    if (extension == ".yml" || extension == ".yaml") {
-        return loadOpenCvMatrix(file);
-    }
-    if (extension == ".npy") {
-        return lightsOf(file, vectorsOf(file, loadNpyTable(file)));
-    }
-    if (extension == ".lp") {
-        return loadLpFile(file);
-    }
-    if (extension == ".json") {
-        return loadLightsJson(file);
-    }
-    return loadDirectionTable(file);
-}
-
 namespace {
 
 struct LpLine {
@@ -201,26 +183,8 @@ Light lightOf(const fs::path& file, const LpLine& line, const std::optional<LpLi
     return {normalized(line.vector), irradiance};
 }
 
-} // namespace
-
-LightFile loadLpList(const fs::path& file)
+LightFile lightsOfLp(const fs::path& file, const std::vector<std::string>& lines)
 {
-    const std::vector<std::string> lines = loadTextLines(file);
-    if (lines.empty() || std::any_of(lines.begin(), lines.end(), [](const auto& l) { return parseLpLine(l); })) {
-        return loadLpFile(file);
-    }
-    const bool counted = parseNumber(lines[0]).has_value();
-    if (counted) {
-        requireAnnouncedCount(file, parseCount(file, lines[0]), lines.size() - 1);
-    }
-    LightFile result;
-    result.photographs.assign(lines.begin() + (counted ? 1 : 0), lines.end());
-    return result;
-}
-
-LightFile loadLpFile(const fs::path& file)
-{
-    const std::vector<std::string> lines = loadTextLines(file);
     if (lines.empty()) {
         throw Error(file, "is empty", "a count, then \"file x y z\" a line");
     }
@@ -242,6 +206,37 @@ LightFile loadLpFile(const fs::path& file)
     return result;
 }
 
+// Whether words stand before each line's numbers.
+bool namesPhotographs(const std::vector<std::string>& lines)
+{
+    return !lines.empty() && std::all_of(lines.begin(), lines.end(), [](const std::string& text) {
+        const std::optional<LpLine> line = parseLpLine(text);
+        return line && !takeNumbersFromEnd(line->photograph, std::string_view::npos).rest.empty();
+    });
+}
+
+} // namespace
+
+LightFile loadLpFile(const fs::path& file)
+{
+    return lightsOfLp(file, loadTextLines(file));
+}
+
+LightFile loadLpList(const fs::path& file)
+{
+    const std::vector<std::string> lines = loadTextLines(file);
+    if (lines.empty() || std::any_of(lines.begin(), lines.end(), [](const auto& l) { return parseLpLine(l); })) {
+        return loadLpFile(file);
+    }
+    const bool counted = parseNumber(lines[0]).has_value();
+    if (counted) {
+        requireAnnouncedCount(file, parseCount(file, lines[0]), lines.size() - 1);
+    }
+    LightFile result;
+    result.photographs.assign(lines.begin() + (counted ? 1 : 0), lines.end());
+    return result;
+}
+
 LightFile loadDirectionTable(const fs::path& file)
 {
     NumberTable rows = loadNumberTable(file);
@@ -251,6 +246,25 @@ LightFile loadDirectionTable(const fs::path& file)
         }
     }
     return lightsOf(file, vectorsOf(file, rows));
+}
+
+LightFile loadLightFile(const fs::path& file)
+{
+    const std::string extension = lowerCase(file.extension().string());
+    if (extension == ".yml" || extension == ".yaml") {
+        return loadOpenCvMatrix(file);
+    }
+    if (extension == ".npy") {
+        return lightsOf(file, vectorsOf(file, loadNpyTable(file)));
+    }
+    if (extension == ".lp") {
+        return loadLpFile(file);
+    }
+    if (extension == ".json") {
+        return loadLightsJson(file);
+    }
+    const std::vector<std::string> lines = loadTableLines(file);
+    return namesPhotographs(lines) ? lightsOfLp(file, lines) : loadDirectionTable(file);
 }
 
 std::vector<glm::vec3> loadIrradiances(const fs::path& file)

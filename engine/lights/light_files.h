@@ -20,7 +20,7 @@ struct LightFile {
 };
 
 // By extension: `.lp`, `.json` ("nacre lights", docs/formats.md), `.yml` (a matrix of OpenCV), `.npy` (NumPy), anything
-// else a table of directions.
+// else a table of directions, whose lines may begin with their photographs' names.
 LightFile loadLightFile(const std::filesystem::path& file);
 
 // RTI: the count of lights, which may be missing, then "file x y z" a line; names may hold spaces.

@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr const char* kTable = "an array of NumPy in two dimensions, little-endian floats in C order";
+constexpr const char* kTable = "an array of NumPy in two dimensions, little-endian floats";
 
 // The value behind 'key': in the dictionary that begins the file, up to the comma that ends it.
 std::string_view entryOf(std::string_view header, std::string_view key, char end)
@@ -94,7 +94,7 @@ NumberTable loadNpyTable(const fs::path& file)
     const std::string_view sides = entryOf(parts.header, "'shape'", ')');
     const std::vector<size_t> shape = shapeOf(sides);
     const size_t size = type == "'<f8'" ? sizeof(double) : type == "'<f4'" ? sizeof(float) : 0;
-    if (size == 0 || order != "False" || shape.size() != 2) {
+    if (size == 0 || (order != "False" && order != "True") || shape.size() != 2) {
         throw Error(file,
                     fmt::format("holds {} of shape {}), column by column: {}", printable(type), printable(sides),
                                 printable(order)),
@@ -108,9 +108,13 @@ NumberTable loadNpyTable(const fs::path& file)
     for (size_t i = 0; i < values; ++i) {
         const double value = size == sizeof(double) ? valueAt<double>(parts.data, i) : valueAt<float>(parts.data, i);
         if (!std::isfinite(value)) {
-            throw Error(file, fmt::format("has {} in row {}", value, i / columns + 1), "finite numbers");
+            throw Error(file, fmt::format("has {} as its number {}", value, i + 1), "finite numbers");
         }
-        table[i / columns][i % columns] = value;
+        if (order == "True") { // column by column
+            table[i % rows][i / rows] = value;
+        } else {
+            table[i / columns][i % columns] = value;
+        }
     }
     return table;
 }

@@ -6,6 +6,7 @@
 
 #define GLFW_INCLUDE_VULKAN
 #include <GLFW/glfw3.h>
+#include <fmt/format.h>
 
 #include "engine/files/error.h"
 #include "engine/gpu/check.h"
@@ -124,7 +125,13 @@ VkSurfaceFormatKHR plainFormat(VkPhysicalDevice device, VkSurfaceKHR surface)
             return *found;
         }
     }
-    throw Error({}, "the Vulkan device cannot show 8-bit codes in a window", "another device");
+    const GLFWvidmode* mode = glfwGetPrimaryMonitor() ? glfwGetVideoMode(glfwGetPrimaryMonitor()) : nullptr;
+    const bool isOther = mode && (mode->redBits != 8 || mode->greenBits != 8 || mode->blueBits != 8);
+    throw Error({},
+                isOther ? fmt::format("the screen has {} + {} + {} bits of red, green and blue", mode->redBits,
+                                      mode->greenBits, mode->blueBits)
+                        : "the Vulkan device cannot show 8-bit codes in a window",
+                isOther ? "a screen of 24 bits: 8 each" : "another device");
 }
 
 Owned<VkSemaphore, vkDestroySemaphore> makeSemaphore(VkDevice device)

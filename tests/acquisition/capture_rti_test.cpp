@@ -107,7 +107,7 @@ TEST_F(CaptureRti, NamesAndListsInAnyEncoding)
         wide += std::string{c, '\0'};
     }
     for (const std::string& text : {lines(composed), lines(decomposed), "\xef\xbb\xbf" + lines(composed), wide,
-                                    lines("M\xfcnze"), lines("M\xc3\x9cNZE")}) {
+                                    wide.substr(2), lines("M\xfcnze"), lines("M\xc3\x9cNZE")}) {
         writeText(folder_ / "lights.lp", text);
         const Capture capture = load();
         ASSERT_EQ(capture.photographs.size(), 3u);
@@ -117,17 +117,18 @@ TEST_F(CaptureRti, NamesAndListsInAnyEncoding)
 
 TEST_F(CaptureRti, OfSeveralFoldersTheOneThatTheListNames)
 {
+    const fs::path rti = folder_ / "rti"; // without photographs of its own
     std::string list = "3\n";
     for (int i = 1; i <= 3; ++i) {
         const std::string name = "shot" + std::to_string(i) + ".png";
         for (const char* below : {"cropped-files", "jpeg-exports"}) {
-            fs::create_directories(folder_ / below);
-            writePicture(folder_ / below / name, i);
+            fs::create_directories(rti / below);
+            writePicture(rti / below / name, i);
         }
         list += "C:\\my rti\\jpeg-exports\\" + name + " 1 0 " + std::to_string(i) + "\n";
     }
-    writeText(folder_ / "lights.lp", list);
-    EXPECT_EQ(load().photographs[2].exposures[0].file, folder_ / "jpeg-exports/shot3.png");
+    writeText(rti / "lights.lp", list);
+    EXPECT_EQ(loadCapture(rti).photographs[2].exposures[0].file, rti / "jpeg-exports/shot3.png");
 }
 
 TEST(CapturePictures, AnyFolderWithARig)
@@ -230,6 +231,13 @@ TEST_F(CaptureRti, MasksMayLieInAlpha)
     }
     saveImage(folder_ / "mask.png", mask, PixelType::uint8);
     EXPECT_EQ(load().maskPixels, size_t{kTestWidth} * (kTestHeight - 1));
+    std::filesystem::remove(folder_ / "mask.png");
+    saveImage(folder_ / "photo 1.png", mask, PixelType::uint8); // of photographs that are cut out
+    CaptureOptions linear;
+    linear.transfer = TransferCurve::linear;
+    const Capture capture = load(linear);
+    EXPECT_EQ(capture.maskPixels, size_t{kTestWidth} * (kTestHeight - 1));
+    EXPECT_EQ(capture.maskSource, "photo 1.png, its alpha");
 }
 
 TEST_F(CaptureRti, PhotographsBelowTheList)

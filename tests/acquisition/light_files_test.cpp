@@ -60,6 +60,18 @@ TEST_F(LightFiles, TablesOfSpreadsheetsHaveAHeadingAndNumbers)
     expectError([&] { loadDirections(write("l.csv", "0,0,1\nled,0,1\n")); }, {"l.csv", "\"led\" is no number"});
 }
 
+TEST_F(LightFiles, TablesMayNamePhotographsAndHaveComments)
+{
+    const std::string rows = "a 1.png,0,0,300\nb.png,180,0,240\n";
+    for (const std::string& text : {"file,x,y,z\n" + rows, "# numpy.savetxt\n" + rows, rows}) {
+        const LightFile file = loadLightFile(write("l.csv", text));
+        EXPECT_EQ(file.photographs, (std::vector<std::string>{"a 1.png", "b.png"}));
+        ASSERT_EQ(file.lights.size(), 2u) << text;
+        expectVector(file.lights[1].direction, {0.6f, 0, 0.8f});
+    }
+    EXPECT_EQ(loadDirections(write("l.txt", "# x y z\n0 0 1\n")).size(), 1u);
+}
+
 TEST_F(LightFiles, TableOfThreeLines)
 {
     const auto directions = loadDirections(write("l.txt", "1 0 0 3\n0 1 0 0\n0 0 1 4\n"));
@@ -84,15 +96,16 @@ template <class Value> std::string bytesOf(const std::vector<Value>& values)
 TEST_F(LightFiles, TablesOfNumPy)
 {
     const std::string doubles = bytesOf<double>({0, 0, 2, 3, 0, 4}), floats = bytesOf<float>({0, 0, 2, 3, 0, 4});
-    for (const std::string& bytes : {npyBytes("<f8", "False", doubles), npyBytes("<f4", "False", floats)}) {
+    const std::string columns = bytesOf<double>({0, 3, 0, 0, 2, 4});
+    for (const std::string& bytes :
+         {npyBytes("<f8", "False", doubles), npyBytes("<f4", "False", floats), npyBytes("<f8", "True", columns)}) {
         const std::vector<Light> lights = loadLightFile(write("l.npy", bytes)).lights;
         ASSERT_EQ(lights.size(), 2u);
         expectVector(lights[1].direction, {0.6f, 0, 0.8f});
     }
     const auto expectRefused = [&](const std::string& bytes, const std::string& part) {
-        expectError([&] { loadLightFile(write("l.npy", bytes)); }, {"l.npy", part, "C order"});
+        expectError([&] { loadLightFile(write("l.npy", bytes)); }, {"l.npy", part, "NumPy"});
     };
-    expectRefused(npyBytes("<f8", "True", doubles), "column by column: True");
     expectRefused(npyBytes(">f8", "False", doubles), "'>f8'");
     expectRefused(npyBytes("<i4", "False", floats), "'<i4'");
     expectRefused(npyBytes("<f8", "False", floats), "2 x 3 numbers and holds 3");

@@ -110,6 +110,19 @@ TEST_F(LibraryTest, MeshesAreTurnedAsRenderTurnsThem)
                   {"--turn has nothing to turn"});
 }
 
+TEST_F(LibraryTest, ListsMayHoldNamesWithCommas)
+{
+    saveMaterials("coin, obverse.nacre", {"gold"});
+    saveMaterials("wax.nacre", {"wax"});
+    const std::string both = path("coin, obverse.nacre") + "," + path("wax.nacre");
+    for (const std::string& materials : {both, path("wax.nacre") + "," + path("coin, obverse.nacre")}) {
+        fs::remove_all(path("out"));
+        const ProgramRun run = transfer({"--materials", materials, "--onto", "make:sphere", "--rig", "key"});
+        EXPECT_EQ(run.exitCode, 0) << run.err;
+        EXPECT_TRUE(fs::exists(path("out/key_wax_on_sphere.png"))) << materials;
+    }
+}
+
 TEST_F(LibraryTest, EveryRigHasASheetOfEveryMaterialOnEveryTarget)
 {
     const ProgramRun run = transfer({"--materials", "lambert:0.5,0.2,0.1,lambert:0.3", "--materials", "ggx:alpha=0.5",
