@@ -15,11 +15,11 @@ row() { # NAME, arguments of nacre normals
     }
     python3 - "$name" "$work/n.json" <<'P'
 import json, sys
-codes = ["transfer-curve-left", "transfer-curve-taken", "lights-near", "directions-contradicted", "lights-turned",
+codes = ["transfer-curve-left", "transfer-curve-taken", "offset-left", "lights-near", "directions-contradicted", "lights-turned",
          "axes-mixed", "mask-dark", "mask-inverted", "mask-elsewhere", "camera-shake", "photographs-alike", "normals-unstable", "clipped", "shadowed", "unexplained"]
 degrees = {"directions-contradicted", "lights-turned", "normals-unstable"}
 document = json.load(open(sys.argv[2]))
-checks, found = document["checks"], {f["code"]: f for f in document["findings"] if f["warning"]}
+checks, found = document["checks"], {f["code"]: f for f in document["findings"] if f["warning"] or f["code"] == "intensities-corrected"}
 def cell(code):
     if code not in checks:
         return "" if code not in found else "*"
@@ -31,7 +31,7 @@ print(",".join([sys.argv[1], *map(cell, codes), others]))
 P
 }
 
-echo "capture,transfer-curve-left,transfer-curve-taken,lights-near,directions-contradicted,lights-turned,axes-mixed,mask-dark,mask-inverted,mask-elsewhere,camera-shake,photographs-alike,normals-unstable,clipped,shadowed,unexplained,other warnings"
+echo "capture,transfer-curve-left,transfer-curve-taken,offset-left,lights-near,directions-contradicted,lights-turned,axes-mixed,mask-dark,mask-inverted,mask-elsewhere,camera-shake,photographs-alike,normals-unstable,clipped,shadowed,unexplained,other warnings"
 for name in buddha cat horse; do
     row "$name" "$data/psm/$name" --mirror-sphere "$data/psm/chrome" --diffuse-sphere "$data/psm/gray" --offset auto
 done

@@ -8,8 +8,9 @@ namespace nacre {
 namespace {
 
 // In the order of FindingCode.
-constexpr std::array<std::string_view, 33> kNames = {"transfer-curve-left",
+constexpr std::array<std::string_view, 34> kNames = {"transfer-curve-left",
                                                      "transfer-curve-taken",
+                                                     "offset-left",
                                                      "lights-near",
                                                      "lights-ill-placed",
                                                      "few-lights",

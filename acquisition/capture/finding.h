@@ -10,6 +10,7 @@ enum class FindingCode {
     // Warnings: the result may be wrong.
     transferCurveLeft,
     transferCurveTaken,
+    offsetLeft,
     lightsNear,
     lightsIllPlaced,
     fewLights,

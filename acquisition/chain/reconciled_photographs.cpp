@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <numeric>
+#include <optional>
 #include <utility>
 
 #include "acquisition/checks/discordant_photographs.h"
+#include "acquisition/checks/exposure_drift.h"
 #include "acquisition/checks/intensity_refinement.h"
 
 namespace nacre {
@@ -46,6 +48,12 @@ ReconciledPhotographs reconcilePhotographs(CaptureSample given, const AcquireOpt
         result.findings.push_back(describeDiscordant(discordant, ratios, sample.photographs));
         leaveOut(discordant, result);
         ratios = estimateIntensityRatios(sample.seen, sample.lights, options.normals);
+    }
+    const std::optional<ExposureDrift> drift =
+        sample.irradiancesKnown ? findDrift(ratios, sample.seen, sample.lights, options.normals) : std::nullopt;
+    if (drift) {
+        result.findings.push_back(correctDrift(*drift, ratios, sample.lights));
+        return result;
     }
     if (sample.irradiancesKnown) {
         ratios = confirmedRatios(ratios, sample.seen, sample.lights, options.normals);

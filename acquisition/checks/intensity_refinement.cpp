@@ -32,9 +32,6 @@ constexpr size_t kTriples = 100;
 constexpr size_t kFewestLights = 6;
 // Of ratios, as an estimate of how far equal lights differ: 1 %, which few photographs are better than.
 constexpr double kLeastSpread = 0.01;
-// Lights whose condition is larger tell a tilt of the object from a slope of their intensities by their curvature
-// alone.
-constexpr double kWorstTellingCondition = 5;
 // A photograph disagrees when its log ratio is beyond this and beyond so many of the photographs' own spreads: what is
 // not Lambert makes ratios scatter, too.
 constexpr float kLeastDeviation = 0.095f; // 10 %

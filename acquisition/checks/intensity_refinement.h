@@ -17,6 +17,9 @@ struct PhotographRatios {
 };
 
 constexpr int kMostIterations = 60;
+// Lights whose condition is larger tell a tilt of the object from a slope of their intensities by their curvature
+// alone.
+constexpr double kWorstTellingCondition = 5;
 
 // Normals by consensus on the sample, ratios of observation to Lambertian prediction, irradiances times the ratios, and
 // again until they rest (semi-calibrated photometric stereo: Cho, Matsushita, Tai and Kweon, Photometric Stereo Under

@@ -31,6 +31,12 @@ constexpr double kLargestClipped = 0.1;      // of the lit observations
 constexpr double kLargestShadowed = 0.2;     // of the observations that face their light
 constexpr double kLargestUnexplained = 0.09; // of the brightness; good photographs have 0.06
 constexpr float kFacing = 0.2f;              // n.l
+// A floor under the values: of the bright ones, more than rounding and light from other parts leave (0.01 at most).
+constexpr double kLargestFloor = 0.02;
+constexpr float kTurnedAway = -0.1f; // n.l: by more than normals err where they count
+constexpr size_t kFewestUnlit = 50;
+// Of the floor: where light comes from other parts of the object, the median of what is turned away is far above it.
+constexpr float kFloorSpread = 1.25f;
 
 Observations thinned(const Observations& sample)
 {
@@ -73,6 +79,30 @@ Finding findingOf(const CaptureDefect& defect, double scatter)
             fmt::format("the lights are not distant (at {:.2g} widths of the object, {}); give their distance "
                         "(--light-distance), move them away, or photograph less of the object",
                         defect.size, gain)};
+}
+
+// What is turned away from its light sees none of it: where its values lie together far above 0, every value has that
+// much more than its light gives. 0 where they do not.
+double floorOf(const CheckedSample& sample)
+{
+    std::vector<float> unlit, brightest;
+    for (size_t p = 0; p < sample.seen.pixels.size(); ++p) {
+        float most = 0;
+        for (size_t i = 0; i < sample.lights.size(); ++i) {
+            const float value = channelMean(sample.seen.radianceOf(p)[i]);
+            const PixelNormal& pixel = sample.consensus.pixels[p];
+            most = std::max(most, value);
+            if (pixel.confidence > 0 && glm::dot(pixel.normal, sample.lights[i].direction) < kTurnedAway) {
+                unlit.push_back(value);
+            }
+        }
+        brightest.push_back(most);
+    }
+    if (unlit.size() < kFewestUnlit) {
+        return 0;
+    }
+    const float floor = quantile(unlit, 0.1), bright = quantile(brightest, 0.9);
+    return bright > 0 && quantile(unlit, 0.5) < kFloorSpread * floor ? floor / bright : 0;
 }
 
 // Shares of the observations that face their light.
@@ -177,7 +207,13 @@ CheckedSample checkCapture(const Observations& sample, const std::vector<Light>&
     const DefectSearch search = findDefect(checked.seen, lights, quick, checked.scatter);
     checks.figures = search.figures;
     checked.defect = search.defect;
-    if (checked.defect) {
+    const double floor = floorOf(checked);
+    checks.judge(FindingCode::offsetLeft, floor, kLargestFloor,
+                 fmt::format("what is turned away from its light still shows {:.1f} % of the bright values, all of it "
+                             "alike: light that stays on, or the sensor's black; --offset auto, or a photograph "
+                             "without the lights by --ambient",
+                             100 * floor));
+    if (checked.defect && floor <= kLargestFloor) { // a floor alone looks like a curve
         checks.findings.push_back(findingOf(*checked.defect, checked.scatter));
     }
     const double misfit = lightMisfitDegrees(checked.intensities, checked.consensus, lights);

@@ -17,6 +17,8 @@ const char* reasonOf(FindingCode code)
     case FindingCode::transferCurveLeft:
     case FindingCode::transferCurveTaken:
         return "the brightness of the files does not follow the light (transfer curve)";
+    case FindingCode::offsetLeft:
+        return "light that is not the lights' own is left in the photographs";
     case FindingCode::lightsNear:
         return "the lights stood too near";
     case FindingCode::lightsIllPlaced:

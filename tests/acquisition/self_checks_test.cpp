@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "acquisition/lights/lights.h"
+#include "engine/files/measures.h"
 #include "evaluation/stress/degradations.h"
 #include "evaluation/stress/normal_sweeps.h"
 
@@ -57,6 +58,22 @@ TEST(SelfChecks, EachDefectIsNamed)
     expectSaid(&Degradation::directionErrorDegrees, 6, FindingCode::directionsContradicted);
     expectSaid(&Degradation::overexposedShare, 0.35, FindingCode::clipped);
     expectSaid(&Degradation::shadowShare, 0.3, FindingCode::shadowed);
+}
+
+// It bends the shading as a transfer curve does, which is not what has to be undone.
+TEST(SelfChecks, LightThatStaysOnIsToldFromACurve)
+{
+    PhotographedObject object = subject().clean;
+    float brightest = 0;
+    for (const glm::vec3& value : object.seen.radiance) {
+        brightest = std::max(brightest, channelMean(value));
+    }
+    for (glm::vec3& value : object.seen.radiance) {
+        value += 0.05f * brightest;
+    }
+    const std::vector<Finding> warnings = checkCapture(object.seen, object.lights, {}).checks.findings;
+    EXPECT_TRUE(contains(warnings, FindingCode::offsetLeft));
+    EXPECT_FALSE(contains(warnings, FindingCode::transferCurveLeft));
 }
 
 TEST(SelfChecks, LambertsMethodsAreDoubtedWhereGlossOrNoiseRules)
