@@ -8,6 +8,7 @@
 #include <glm/trigonometric.hpp>
 #include <nlohmann/json.hpp>
 
+#include "acquisition/exchange/rgl_file.h"
 #include "app/arguments/destinations.h"
 #include "app/commands/commands.h"
 #include "app/report/brdf_report.h"
@@ -176,8 +177,9 @@ void checkArguments(const BrdfArguments& arguments)
 {
     for (const std::filesystem::path& file : arguments.exports) {
         const std::string extension = lowerExtension(file);
-        if (extension != ".binary" && extension != ".ktx2" && extension != ".exr") {
-            throw Error(file, "is no file that --export writes", ".binary (MERL), .ktx2 or .exr", Error::kUsage);
+        if (extension != ".binary" && extension != ".ktx2" && extension != ".bsdf" && extension != ".exr") {
+            throw Error(file, "is no file that --export writes", ".binary (MERL), .bsdf (RGL), .ktx2 or .exr",
+                        Error::kUsage);
         }
         requireFile(file, arguments.force);
     }
@@ -194,6 +196,8 @@ void exportTo(const std::filesystem::path& file, const BrdfSource& source, const
     std::string note;
     if (lowerExtension(file) == ".binary") {
         saveMerl(file, source.model, arguments.threads);
+    } else if (lowerExtension(file) == ".bsdf") {
+        saveRgl(file, source.model, source.name, arguments.threads);
     } else if (lowerExtension(file) == ".exr") {
         saveBrdfTable(file, tableOfSource(source, arguments.threads));
     } else if (const size_t clamped = saveKtx2(file, tableOfSource(source, arguments.threads)); clamped > 0) {
@@ -262,10 +266,11 @@ void addBrdfCommand(CLI::App& app)
     command
         ->add_option(
             "--export", arguments->exports,
-            "File to write: .binary (MERL), .ktx2 (3D texture, 16-bit floats) or .exr (Nacre's table). Repeatable")
+            "File to write: .binary (MERL), .bsdf (RGL, as Mitsuba's `measured` reads it), .ktx2 (3D texture, 16-bit "
+            "floats) or .exr (Nacre's table). Repeatable")
+        ->option_text("OUT.binary|OUT.bsdf|OUT.ktx2|OUT.exr")
         ->allow_extra_args(false);
-    command->add_option("--json", arguments->json, "File for the figures as JSON")
-        ->option_text("OUT.binary|OUT.ktx2|OUT.exr");
+    command->add_option("--json", arguments->json, "File for the figures as JSON")->option_text("OUT.json");
     command->add_option("--threads", arguments->threads, "Number of threads (default: all)");
     command->add_flag("--force", arguments->force, "Replacement of existing outputs");
     command->add_flag("--quiet", arguments->quiet, "No messages");
