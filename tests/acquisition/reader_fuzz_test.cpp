@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "acquisition/brdf/cornell_samples.h"
 #include "acquisition/capture/capture.h"
 #include "acquisition/capture/capture_maps.h"
 #include "engine/brdf/rgl_brdf.h"
@@ -14,12 +15,14 @@
 #include "engine/lights/environment.h"
 #include "engine/lights/light_files.h"
 #include "engine/materials/merl_file.h"
+#include "engine/rti/hsh_file.h"
 #include "engine/rti/ptm_file.h"
 #include "engine/rti/rti_web.h"
 #include "engine/scene/scene_description.h"
 #include "engine/surface/surface.h"
 #include "engine/target/mesh_file.h"
 #include "tests/support/expect_error.h"
+#include "tests/support/hsh_file.h"
 #include "tests/support/temp_folder.h"
 #include "tests/support/tensor_file.h"
 #include "tests/support/write_capture.h"
@@ -29,7 +32,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kInputs = 800;
+constexpr int kInputs = 1000;
 
 using Random = std::mt19937;
 
@@ -136,14 +139,20 @@ void writeMeshes(const TempFolder& folder, std::vector<FuzzedReader>& readers)
     readers.push_back({folder / "m" / "a.glb", folder / "m" / "a.glb", mesh});
 }
 
-void writeRtiWeb(const TempFolder& folder, std::vector<FuzzedReader>& readers)
+RtiPicture smallRti(RtiBasis basis)
 {
     RtiPicture picture;
-    for (size_t k = 0; k < rtiTermCount(picture.basis); ++k) {
+    picture.basis = basis;
+    for (size_t k = 0; k < rtiTermCount(basis); ++k) {
         picture.terms.emplace_back(8, 6, 3, 0.1f * static_cast<float>(k));
     }
+    return picture;
+}
+
+void writeRtiWeb(const TempFolder& folder, std::vector<FuzzedReader>& readers)
+{
     fs::create_directory(folder / "w");
-    saveRtiWeb(folder / "w", picture, {});
+    saveRtiWeb(folder / "w", smallRti(RtiBasis::ptm), {});
     for (const auto& entry : fs::directory_iterator(folder / "w")) {
         readers.push_back({entry.path(), folder / "w", [](const fs::path& f) { loadRtiWeb(f); }});
     }
@@ -189,6 +198,10 @@ std::vector<FuzzedReader> writeReaders(const TempFolder& folder)
             [](const fs::path& f) { sceneFromFile(f); });
     addText("a.mat", matFile(), [](const fs::path& f) { loadTrueNormals(f); });
     addText("a.ptm", ptmBytes(), [](const fs::path& f) { loadPtm(f); });
+    addText("a.rti", hshBytes(smallRti(RtiBasis::hsh)), [](const fs::path& f) { loadHsh(f); });
+    addText("a.brdf", "# gloss\n2\n400 700\n0 0 0 0 0.3 0.2\n0.5 1 0.5 3 0.1 0.2\n",
+            [](const fs::path& f) { loadCornellMeasurements(f); });
+    addText("a.csv", "file,x,y,z\na.png,0,0,1\nb.png,1,0,1\n", [](const fs::path& f) { loadLightFile(f); });
     addText("a.bsdf", tensorFile(1, "rgb"), [](const fs::path& f) { RglBrdf{f}; });
     addText("a.binary", merlStart(), [](const fs::path& f) { loadMerl(f, {4, 4, 4}); });
     saveImage(folder / "env.exr", Image(8, 4, 3, 1.0f), PixelType::half);

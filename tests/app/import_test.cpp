@@ -10,32 +10,11 @@
 #include "engine/rti/rti_web.h"
 #include "tests/gpu/scenes.h"
 #include "tests/support/expect_one_line.h"
+#include "tests/support/hsh_file.h"
 #include "tests/support/run_nacre.h"
 
 namespace nacre::test {
 namespace {
-
-// An .rti as others write it.
-void writeHsh(const std::filesystem::path& file, const RtiPicture& picture)
-{
-    std::string bytes = fmt::format("#HSH1.2\r\n3\r\n{} {} 3\r\n9 2 1\r\n", picture.width(), picture.height());
-    std::vector<float> scales, biases;
-    for (const Image& term : picture.terms) {
-        const auto [least, most] = std::minmax_element(term.values.begin(), term.values.end());
-        scales.push_back(std::max(1e-6f, *most - *least));
-        biases.push_back(*least);
-    }
-    for (const std::vector<float>* floats : {&scales, &biases}) {
-        bytes.append(reinterpret_cast<const char*>(floats->data()), floats->size() * sizeof(float));
-    }
-    for (size_t i = 0; i < picture.terms[0].values.size(); ++i) {
-        for (size_t k = 0; k < 9; ++k) {
-            bytes += static_cast<char>(std::lround(255 * (picture.terms[k].values[i] - biases[k]) / scales[k]));
-        }
-    }
-    // By pixel and channel, and of each all terms: as values lie.
-    writeTextFile(file, bytes);
-}
 
 class Import : public testing::Test {
 protected:
@@ -72,7 +51,7 @@ protected:
 TEST_F(Import, NormalsOfAMattBallComeBackFromEveryKind)
 {
     ASSERT_EQ(runNacre({"export", path("a.nacre"), "--ptm", path("a.ptm"), "--rti-web", path("web")}).exitCode, 0);
-    writeHsh(folder_ / "a.rti", loadRtiWeb(folder_ / "web"));
+    writeTextFile(folder_ / "a.rti", hshBytes(loadRtiWeb(folder_ / "web")));
     for (const std::string& source : {path("a.ptm"), path("web"), path("a.rti")}) {
         const ProgramRun run = runNacre({"import", source, "-o", path("b.nacre"), "--force"});
         ASSERT_EQ(run.exitCode, 0) << source << run.err;
