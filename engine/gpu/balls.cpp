@@ -143,6 +143,14 @@ bool BallCache::keepsChunks(size_t count) const
     return count > 1 && bytes <= limit_;
 }
 
+// Without a picture of its own, since it is one draw, which adds up to the same bytes: of what has just moved, and may
+// well move again.
+bool BallCache::isDrawnOnSum(size_t chunk) const
+{
+    const auto [first, last] = chunks_[chunk];
+    return chunk > 0 && chunkIsStale_[chunk] != 0 && last - first <= kLightsPerGroup;
+}
+
 const Texture& BallCache::normalsOfBall(int size)
 {
     auto found = normals_.find(size);
@@ -190,20 +198,46 @@ void BallCache::record(VkCommandBuffer commands, std::span<const TableTexture> t
     if (sumIsStale_ || displayIsStale_) {
         recordDisplay(commands);
     }
-    std::fill(chunkIsStale_.begin(), chunkIsStale_.end(), uint8_t{0});
+    for (size_t chunk = 0; chunk < chunks_.size(); ++chunk) {
+        chunkIsStale_[chunk] = chunks_.size() > 1 && isDrawnOnSum(chunk);
+    }
     sumIsStale_ = displayIsStale_ = false;
+}
+
+void BallCache::recordLights(VkCommandBuffer commands, const Texture& target, Load load, size_t material,
+                             const TableTexture& table, const LightGroups& lights, size_t chunk)
+{
+    const auto [first, last] = chunks_[chunk];
+    beginRendering(commands, target, load);
+    direct_.record(commands, {normalsOfBall(materials_[material].size), nullptr, table, 0}, lights, first, last);
+    vkCmdEndRendering(commands);
+    drawnLights_ += last - first;
 }
 
 void BallCache::recordChunk(VkCommandBuffer commands, const Texture& target, size_t material, const TableTexture& table,
                             const LightGroups& lights, size_t chunk)
 {
-    const auto [first, last] = chunks_[chunk];
     imageBarrier(commands, target.image(), kDiscarded, kDrawnTo);
-    beginRendering(commands, target, Load::clear);
-    direct_.record(commands, {normalsOfBall(materials_[material].size), nullptr, table, 0}, lights, first, last);
-    vkCmdEndRendering(commands);
+    recordLights(commands, target, Load::clear, material, table, lights, chunk);
     imageBarrier(commands, target.image(), kDrawnTo, kSampled);
-    drawnLights_ += last - first;
+}
+
+// The first is what the others are added to.
+void BallCache::recordAdded(VkCommandBuffer commands, const Texture& sum, const Texture& picture, bool isFirst)
+{
+    if (isFirst) {
+        imageBarrier(commands, picture.image(), kSampled, kCopiedFrom);
+        imageBarrier(commands, sum.image(), kDiscarded, kCopiedTo);
+        recordWholeCopy(commands, picture, sum);
+        imageBarrier(commands, sum.image(), kCopiedTo, kDrawnTo);
+        imageBarrier(commands, picture.image(), kCopiedFrom, kSampled);
+        return;
+    }
+    imageBarrier(commands, sum.image(), kDrawnTo, kDrawnTo);
+    beginRendering(commands, sum, Load::keep);
+    const std::array inputs = {textureInput(kBindingInput, nearest_, picture)};
+    draw(context_, commands, add_, inputs, {});
+    vkCmdEndRendering(commands);
 }
 
 void BallCache::recordSum(VkCommandBuffer commands, size_t material, const TableTexture& table,
@@ -215,15 +249,16 @@ void BallCache::recordSum(VkCommandBuffer commands, size_t material, const Table
         return;
     }
     for (size_t chunk = 0; chunk < chunks_.size(); ++chunk) {
+        if (isDrawnOnSum(chunk)) {
+            imageBarrier(commands, balls.sum.image(), kDrawnTo, kDrawnTo);
+            recordLights(commands, balls.sum, Load::keep, material, table, lights, chunk);
+            continue;
+        }
         const Texture& picture = balls.chunks.empty() ? scratch_.at(balls.size) : balls.chunks[chunk];
         if (balls.chunks.empty() || chunkIsStale_[chunk]) {
             recordChunk(commands, picture, material, table, lights, chunk);
         }
-        imageBarrier(commands, balls.sum.image(), chunk == 0 ? kDiscarded : kDrawnTo, kDrawnTo);
-        beginRendering(commands, balls.sum, chunk == 0 ? Load::clear : Load::keep);
-        const std::array inputs = {textureInput(kBindingInput, nearest_, picture)};
-        draw(context_, commands, add_, inputs, {});
-        vkCmdEndRendering(commands);
+        recordAdded(commands, balls.sum, picture, chunk == 0);
     }
     imageBarrier(commands, balls.sum.image(), kDrawnTo, kSampled);
 }

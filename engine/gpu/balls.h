@@ -51,8 +51,12 @@ private:
     const Texture& normalsOfBall(int size);
     std::span<const Light> lightsOf(const LightRange& chunk) const;
     bool keepsChunks(size_t count) const;
+    bool isDrawnOnSum(size_t chunk) const;
+    void recordLights(VkCommandBuffer commands, const Texture& target, Load load, size_t material,
+                      const TableTexture& table, const LightGroups& lights, size_t chunk);
     void recordChunk(VkCommandBuffer commands, const Texture& target, size_t material, const TableTexture& table,
                      const LightGroups& lights, size_t chunk);
+    void recordAdded(VkCommandBuffer commands, const Texture& sum, const Texture& picture, bool isFirst);
     void recordSum(VkCommandBuffer commands, size_t material, const TableTexture& table, const LightGroups& lights);
     void recordDisplay(VkCommandBuffer commands);
 

@@ -186,4 +186,11 @@ void imageBarrier(VkCommandBuffer commands, VkImage image, const ImageUse& befor
     vkCmdPipelineBarrier2(commands, &dependency);
 }
 
+void recordWholeCopy(VkCommandBuffer commands, const Texture& from, const Texture& to)
+{
+    constexpr VkImageSubresourceLayers kAll{.aspectMask = VK_IMAGE_ASPECT_COLOR_BIT, .layerCount = 1};
+    const VkImageCopy copy{.srcSubresource = kAll, .dstSubresource = kAll, .extent = from.extent()};
+    vkCmdCopyImage(commands, from.image(), kCopiedFrom.layout, to.image(), kCopiedTo.layout, 1, &copy);
+}
+
 } // namespace nacre

@@ -94,4 +94,7 @@ inline constexpr ImageUse kDrawnTo{VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
 void imageBarrier(VkCommandBuffer commands, VkImage image, const ImageUse& before, const ImageUse& after,
                   VkImageAspectFlags aspect = VK_IMAGE_ASPECT_COLOR_BIT);
 
+// Of all texels, between 2D textures of one size and format: `from` is in kCopiedFrom, `to` in kCopiedTo.
+void recordWholeCopy(VkCommandBuffer commands, const Texture& from, const Texture& to);
+
 } // namespace nacre
