@@ -12,11 +12,12 @@ lights=(--light 0.3,0.4,0.87 --light=-0.6,0.2,0.8,0.3,0.5,1 --light 0.5,-0.5,0.7
 
 ticks() { awk '{ print $14 + $15 }' "/proc/$window_id/stat"; } # hundredths of a second of one core
 
-# Drags for so many seconds, quits, and prints how many pictures the window showed since it opened, and the processor's
-# time that it took.
+# Drags for about so many seconds, quits, and prints how many pictures the window showed since it opened, the
+# processor's time that it took, and how many seconds the drag took.
 pictures_after() { # SECONDS
     open_window --size "$size" "${lights[@]}" "${shown[@]}"
     sleep 3
+    local began=$EPOCHREALTIME
     if [ "$1" -gt 0 ]; then
         xdotool mousemove $((from_x + 16)) "$from_y" mousedown "$button"
         local moves=() end=$((SECONDS + $1)) # one call for many moves: starting it takes longer than a frame
@@ -28,20 +29,20 @@ pictures_after() { # SECONDS
         echo "            ${title##* - }" >&2
         xdotool mouseup "$button"
     fi
-    local busy
+    local ended=$EPOCHREALTIME busy
     busy=$(ticks)
     press Escape
     wait "$window_id"
     window_id=
-    awk -v b="$busy" '/^showed/ { print $2, b }' "$work/out"
+    awk -v b="$busy" -v from="$began" -v to="$ended" '/^showed/ { print $2, b, to - from }' "$work/out"
 }
 
 seconds=8
 measure() { # WHAT SIZE WORDS ARGUMENTS of nacre view
     size=$2 shown=("${@:4}")
     local start=$(pictures_after 0) moved=$(pictures_after $seconds)
-    echo "$start $moved" | awk -v s=$seconds -v z="$2$3" -v w="$1" '{ n = $3 - $1
-        printf "%-11s %.0f frames a second, %.0f ms of processor time each, %s\n", w, n / s, 10 * ($4 - $2) / n, z }'
+    echo "$start $moved" | awk -v z="$2$3" -v w="$1" '{ n = $4 - $1
+        printf "%-11s %.0f frames a second, %.0f ms of processor time each, %s\n", w, n / $6, 10 * ($5 - $2) / n, z }'
 }
 drag_light() { # SIZE WORDS ARGUMENTS
     from_x=1100 from_y=100 button=1 # on the light ball

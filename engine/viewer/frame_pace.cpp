@@ -13,7 +13,7 @@ void FramePace::ask(int frames)
 
 void FramePace::wait() const
 {
-    const double seconds = 1 / kMostFramesPerSecond - sinceBegin_.seconds();
+    const double seconds = due_ - clock_.seconds();
     if (isDue() && seconds > 0) {
         std::this_thread::sleep_for(std::chrono::duration<double>(seconds));
     }
@@ -21,6 +21,8 @@ void FramePace::wait() const
 
 void FramePace::begin()
 {
+    constexpr double kPeriod = 1 / kMostFramesPerSecond;
+    due_ = std::max(due_, clock_.seconds() - kPeriod) + kPeriod; // what comes a little late does not delay the next
     sinceBegin_.lap();
     --left_;
 }

@@ -24,6 +24,8 @@ private:
     static constexpr int kToSettle = 3; // ImGui takes a few
 
     int left_ = kToSettle;
+    Stopwatch clock_;
+    double due_ = 0;       // on it: when the next frame is
     Stopwatch sinceBegin_; // of the frame that was drawn last
     double seconds_ = 0;
     size_t drawn_ = 0;
