@@ -1,15 +1,18 @@
+#include <cmath>
 #include <memory>
 
 #include <fmt/format.h>
+#include <glm/gtc/constants.hpp>
 
 #include "app/arguments/scene_options.h"
 #include "app/commands/commands.h"
 #include "app/materials/render_output.h"
 #include "app/materials/target_source.h"
+#include "engine/files/error.h"
 #include "engine/loading/scene_loading.h"
 #include "engine/scene/scene_names.h"
 #include "engine/scene/scene_residual.h"
-#include "engine/target/mesh_file.h"
+#include "engine/target/mesh_raster.h"
 
 namespace nacre {
 
@@ -74,17 +77,29 @@ void report(const Scene& scene, Renderer& renderer, const RenderOutput& output, 
                output.frames > 1 && !output.isAnimation ? " and so on" : "");
 }
 
-// Gives the renderer what the camera sees of a mesh that turns once around over the frames; none: no object turns.
-std::function<void(int)> turningObject(const SceneDescription& scene, const Context& context, Renderer& renderer)
+// Degrees that the object has turned after a share of the frames. Of a relief only the front is known: it sways.
+float turnedBy(const Mesh& mesh, float share)
+{
+    constexpr float kReliefSway = 40, kStep = 1.0f / 1024; // halfway it stands as it is, to the bit
+    return mesh.front ? kStep * std::round(kReliefSway / kStep * std::sin(glm::two_pi<float>() * share)) : 360 * share;
+}
+
+// Gives the renderer what the camera sees of a mesh, or a relief, that turns over the frames; none: no object turns.
+std::function<void(int)> turningObject(const SceneDescription& scene, const SceneInputs& inputs, const Context& context,
+                                       Renderer& renderer)
 {
     if (scene.motion != LightMotion::object) {
         return {};
     }
-    const auto mesh = std::make_shared<const Mesh>(loadMesh(scene.onto));
+    const std::shared_ptr<const Mesh> mesh = loadSurfaceOrMesh(scene, inputs, context, true).mesh;
+    if (mesh->front && scene.residual == ResidualUse::alone) {
+        throw Error(scene.surface, "has a residual layer from the front alone", "another motion, or no layer alone",
+                    Error::kUsage);
+    }
     const std::shared_ptr<MeshRaster> raster = meshRasterFor(context, mesh, scene);
     return [scene, raster, &renderer](int frame) {
         SceneDescription turned = scene;
-        turned.turn.yaw += 360.0f * static_cast<float>(frame) / static_cast<float>(scene.frames);
+        turned.turn.yaw += turnedBy(*raster->mesh(), static_cast<float>(frame) / static_cast<float>(scene.frames));
         Surface pixels;
         drawMesh(*raster, turned, pixels);
         renderer.setPixels(pixels);
@@ -97,12 +112,13 @@ void runRender(const RenderArguments& arguments)
     const RenderOutput output = checkedOutput(description, arguments.output, arguments.scale, arguments.force);
     requireConsistent(description);
     const Context context(arguments.scene.device);
-    const Scene scene = loadScene(description, sceneInputs(arguments.scene.fits), context, arguments.quiet);
+    const SceneInputs inputs = sceneInputs(arguments.scene.fits);
+    const Scene scene = loadScene(description, inputs, context, arguments.quiet);
     Renderer renderer(context);
     renderer.setSurface(scene.surface);
     renderer.setView(scene.view);
     const RenderedOutput rendered =
-        renderFrames(renderer, output, scene, turningObject(description, context, renderer));
+        renderFrames(renderer, output, scene, turningObject(description, inputs, context, renderer));
     if (!arguments.quiet) {
         report(scene, renderer, output, rendered);
     }
@@ -165,7 +181,7 @@ void addRenderCommand(CLI::App& app)
     scene
         .addParsed(*command, "--motion", &SceneDescription::motion, motionFromName,
                    "Motion over --frames: of the lights, turntable (about the view) or sweep (left to right); of the "
-                   "mesh of --onto, "
+                   "mesh of --onto or of the relief, which sways, "
                    "object; none [turntable]")
         ->group("Picture");
     command

@@ -277,7 +277,8 @@ void addTransferCommand(CLI::App& app)
     command->add_option("--frames", arguments->frames, "Number of frames with moving lights, as .png and one .webp");
     command->add_option("--motion", arguments->motion,
                         "Motion of the lights: turntable (about the view) or sweep (left to right) [turntable]");
-    command->add_option("--turn", arguments->turn, "Turn of the meshes of --onto in degrees, YAW,PITCH[,ROLL] [0,0]");
+    command->add_option("--turn", arguments->turn,
+                        "Turn of the shapes, by their heights but for meshes, in degrees, YAW,PITCH[,ROLL] [0,0]");
     command->add_flag("--hatch", arguments->hatch, "Stripes where a picture is uncertain by over 20 %");
     command->add_flag("--shadows", arguments->shadows, "Cast shadows, from the height of the shapes");
     command->add_option("-o,--output", arguments->output, "Folder for sheet_RIG.png and every single picture")

@@ -16,6 +16,7 @@
 #include "engine/target/mesh_file.h"
 #include "engine/target/mesh_raster.h"
 #include "engine/target/normal_map_source.h"
+#include "engine/target/relief.h"
 
 namespace nacre {
 namespace fs = std::filesystem;
@@ -217,6 +218,44 @@ bool isPicture(const fs::path& file)
     return std::find(kExtensions.begin(), kExtensions.end(), lowerCase(file.extension().string())) != kExtensions.end();
 }
 
+// Of what is no mesh.
+TargetReport targetFromTheFront(const TargetCommandArguments& arguments)
+{
+    if (isGenerated(arguments.source)) {
+        return targetOfSpecification(arguments);
+    }
+    if (!fs::exists(arguments.source)) {
+        throw Error(arguments.source, "does not exist", kSources);
+    }
+    if (fs::is_directory(arguments.source)) {
+        return targetOfSurface(arguments);
+    }
+    if (!isPicture(arguments.source)) {
+        throw Error(arguments.source, "is nothing that a target can be made of", kSources);
+    }
+    const bool isHeight = !arguments.heightScale.empty() || isGrey(loadImage(arguments.source));
+    return isHeight ? targetOfHeightMap(arguments) : targetOfNormalMap(arguments);
+}
+
+// The same as a relief of its height, turned.
+TargetReport targetOfRelief(const TargetCommandArguments& arguments)
+{
+    TargetCommandArguments front = arguments;
+    if (!isGenerated(arguments.source)) {
+        front.size.clear(); // pixels that are repeated make stairs of a height
+    }
+    TargetReport report = targetFromTheFront(front);
+    const Stopwatch watch;
+    const Mesh relief = reliefMesh(std::make_shared<const Surface>(std::move(report.surface)));
+    const NormalMap& picture = relief.front->normals;
+    const PictureSize size = arguments.size.empty() ? PictureSize{picture.width, picture.height} : sizeOf(arguments);
+    const MeshViewOptions options{.width = size.width, .height = size.height, .turn = turnFromText(arguments.turn)};
+    report.surface = rasterisedMesh(Context(arguments.device), relief, fittedView(relief, options));
+    report.surface.parts = relief.front->parts;
+    report.stages.push_back({"turn", watch.seconds()});
+    return report;
+}
+
 } // namespace
 
 Surface generatedShape(const std::string& source, const PictureSize& size, int threads)
@@ -240,27 +279,14 @@ SceneInputs sceneInputs(const std::filesystem::path& fits)
 TargetReport targetFromSource(const TargetCommandArguments& arguments)
 {
     normalYOf(arguments);
-    const bool isMade = isGenerated(arguments.source);
-    if (!isMade && isMeshFile(arguments.source)) {
+    if (!isGenerated(arguments.source) && isMeshFile(arguments.source)) {
         return targetOfMesh(arguments);
     }
     refuse("a source that is no mesh", {{"--from", !arguments.from.empty()},
                                         {"--up", !arguments.up.empty()},
                                         {"--normal-map", !arguments.normalMap.empty()}});
-    if (isMade) {
-        return targetOfSpecification(arguments);
-    }
-    if (!fs::exists(arguments.source)) {
-        throw Error(arguments.source, "does not exist", kSources);
-    }
-    if (fs::is_directory(arguments.source)) {
-        return targetOfSurface(arguments);
-    }
-    if (!isPicture(arguments.source)) {
-        throw Error(arguments.source, "is nothing that a target can be made of", kSources);
-    }
-    const bool isHeight = !arguments.heightScale.empty() || isGrey(loadImage(arguments.source));
-    return isHeight ? targetOfHeightMap(arguments) : targetOfNormalMap(arguments);
+    const bool isTurned = !arguments.turn.empty() && turnFromText(arguments.turn) != Turn();
+    return isTurned ? targetOfRelief(arguments) : targetFromTheFront(arguments);
 }
 
 } // namespace nacre

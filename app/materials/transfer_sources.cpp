@@ -232,10 +232,6 @@ std::vector<TransferTarget> loadTransferTargets(const TransferArguments& argumen
 {
     const std::vector<std::string> sources = listFromArguments(arguments.targets);
     const std::vector<std::string> names = shortNames(sources);
-    if (!arguments.turn.empty() && std::none_of(sources.begin(), sources.end(), isMeshFile)) {
-        throw Error("", "--turn has nothing to turn", "a mesh among --onto (.obj, .ply, .gltf, .glb, .stl)",
-                    Error::kUsage);
-    }
     std::vector<TransferTarget> targets;
     for (size_t i = 0; i < sources.size(); ++i) {
         const bool isDrawn = sources[i].starts_with("make:") || isMeshFile(sources[i]);
@@ -243,7 +239,7 @@ std::vector<TransferTarget> loadTransferTargets(const TransferArguments& argumen
                                                 .output = {},
                                                 .from = {},
                                                 .up = {},
-                                                .turn = isMeshFile(sources[i]) ? arguments.turn : "",
+                                                .turn = arguments.turn,
                                                 .size = isDrawn || arguments.enlarges ? arguments.size : "",
                                                 .normalMap = {},
                                                 .normalY = {},

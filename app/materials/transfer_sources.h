@@ -19,7 +19,7 @@ struct TransferArguments {
     std::string size = "512x512";
     bool enlarges = true; // pictures and surfaces to that size too, beside what is drawn or made
     std::string motion;
-    std::string turn; // of the meshes among the targets
+    std::string turn; // of the targets: meshes, and the others as reliefs of their heights
     std::string device;
     int frames = 1;
     int threads = 0;

@@ -12,7 +12,7 @@ std::vector<Light> softLight(const Light& light, float radius, int count);
 
 // How lights move over a sequence. turntable: once around the viewing axis. sweep: about the vertical axis, from the
 // left to the right by kSweepReach either side of where they are. object: they stay, and a mesh turns once around its
-// vertical axis.
+// vertical axis; a relief, whose back is not known, sways about it.
 enum class LightMotion { none, turntable, sweep, object };
 
 inline constexpr float kSweepReach = 1.0472f; // radians: 60 degrees

@@ -137,11 +137,12 @@ LoadedSurface drawnSurfaceOf(const SceneDescription& scene, const SceneInputs& i
     }
     std::shared_ptr<const Mesh> relief;
     const bool hasHeight = !measured.height.values.empty();
-    if (scene.turn != Turn() && !hasHeight) {
+    const bool isTurned = scene.turn != Turn() || scene.motion == LightMotion::object;
+    if (isTurned && !hasHeight) {
         throw Error(scene.onto.empty() ? scene.surface : scene.onto, "has no height, and cannot be turned",
                     "an acquired surface, or a mesh to put the material onto (.obj, .ply, .gltf, .glb, .stl)");
     }
-    if (hasHeight && (canTurn || scene.turn != Turn())) {
+    if (hasHeight && (canTurn || isTurned)) {
         relief = std::make_shared<const Mesh>(reliefMesh(frontOf(measured)));
     }
     if (scene.size) {
@@ -203,10 +204,6 @@ void requireConsistent(const SceneDescription& scene)
     }
     if (scene.normalY && scene.onto.empty()) {
         throw Error("", "normal-y has nothing to turn", "other normals to put the material onto", Error::kUsage);
-    }
-    if (scene.motion == LightMotion::object && !isMeshFile(scene.onto)) {
-        throw Error(scene.onto.empty() ? scene.surface : scene.onto, "cannot be turned",
-                    "a mesh to put the material onto (.obj, .ply, .gltf, .glb, .stl)", Error::kUsage);
     }
 }
 

@@ -170,7 +170,7 @@ TEST_F(RenderTest, BadOptionsAreUsageErrors)
     expectRefusal(render("new.png", {"--onto", "make:moon"}), 2, "sphere");
     expectRefusal(render("new.png", {"--onto", path("mesh.obj")}), 3, "a mesh file");
     expectRefusal(render("new.png", {"--turn", "30,0"}), 3, "has no height, and cannot be turned");
-    expectRefusal(render("new.png", {"--frames", "2", "--motion", "object"}), 2, "cannot be turned");
+    expectRefusal(render("new.png", {"--frames", "2", "--motion", "object"}), 3, "cannot be turned");
 }
 
 TEST_F(RenderTest, ViewRefusesPhotographsThatAreNone)

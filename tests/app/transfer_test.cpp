@@ -106,8 +106,31 @@ TEST_F(LibraryTest, MeshesAreTurnedAsRenderTurnsThem)
                   loadImage(path("one.png")).values)
             << frame;
     }
-    expectOneLine(transfer({"--materials", material, "--onto", "make:head", "--turn", "30,10", "--force"}), 2,
-                  {"--turn has nothing to turn"});
+}
+
+TEST_F(LibraryTest, OtherShapesAreTurnedAsReliefsOfTheirHeights)
+{
+    const std::string material = saveMaterials("a.nacre", {"skin"});
+    const auto render = [&](const std::string& name, const std::vector<std::string>& more) {
+        std::vector<std::string> arguments = {"render", "--material", material,  "--onto",  "make:head",
+                                              "--size", "64x48",      "--quiet", "--force", "--light=0.3,0.4,0.87",
+                                              "--path", "direct",     "-o",      path(name)};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        EXPECT_EQ(runNacre(arguments).exitCode, 0);
+        return path(name);
+    };
+    const ProgramRun run = transfer(
+        {"--materials", material, "--onto", "make:head", "--turn", "30,10", "--rig", write("rig.json", kRig) + "#1"});
+    ASSERT_EQ(run.exitCode, 0) << run.err;
+    EXPECT_EQ(loadImage(path("out/rig-1_a_on_head.png")).values,
+              loadImage(render("turned.png", {"--turn", "30,10"})).values);
+
+    render("sway.png", {"--frames", "4", "--motion", "object", "--exposure", "0"});
+    const char* const turns[] = {"0,0", "40,0", "0,0", "-40,0"};
+    for (int frame = 0; frame < 4; ++frame) {
+        const Image expected = loadImage(render("one.png", {"--turn=" + std::string(turns[frame]), "--exposure", "0"}));
+        EXPECT_EQ(loadImage(path("sway_000" + std::to_string(frame + 1) + ".png")).values, expected.values) << frame;
+    }
 }
 
 TEST_F(LibraryTest, ListsMayHoldNamesWithCommas)
