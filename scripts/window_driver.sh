@@ -43,6 +43,7 @@ make_scene() {
 }
 
 open_window() { # ARGUMENTS of nacre view; waits until it has drawn
+    export XDG_STATE_HOME=$work/state # not the user's own
     shot_count=$(find "$shots" -name '*.png' | wc -l)
     "$nacre" view "$@" --screenshots "$shots" >"$work/out" 2>"$work/err" &
     window_id=$!

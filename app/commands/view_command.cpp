@@ -12,6 +12,7 @@
 #include "engine/files/text_files.h"
 #include "engine/loading/scene_loading.h"
 #include "engine/scene/picture_size.h"
+#include "engine/view_state/recent_files.h"
 #include "engine/viewer/headless_view.h"
 #include "engine/viewer/viewer.h"
 #include "engine/viewer/window.h"
@@ -124,7 +125,8 @@ void runView(ViewArguments arguments)
                   {.width = size.width,
                    .height = size.height,
                    .screenshots = arguments.screenshots.empty() ? "." : arguments.screenshots,
-                   .textScale = arguments.textScale});
+                   .textScale = arguments.textScale,
+                   .recent = recentFilesList()});
     }
 }
 

@@ -26,6 +26,7 @@ struct Session {
     bool hasResidual = false;         // what is drawn has a residual layer, seen from the front
     std::string message;              // to the user, about what was asked for last
     bool wantsScreenshot = false;
+    std::filesystem::path wantsToOpen{}; // another surface; empty: none
     bool wantsToQuit = false;
 };
 

@@ -66,6 +66,7 @@ void showPanels(Session& session, const PanelInputs& inputs, const Stage& stage,
     showLightPanel(session, inputs, placed);
     showMaterialPanel(session, inputs, placed);
     showDisplayPanel(session);
+    showRecentPanel(session, inputs);
     ImGui::End();
     ImGui::SetNextWindowPos({0, 0});
     ImGui::SetNextWindowSize({stage.area.origin.x, stage.area.size.y});
@@ -162,6 +163,25 @@ void showDisplayPanel(Session& session)
     }
     if (session.hasResidual) {
         chooseResidualShown(session);
+    }
+}
+
+void showRecentPanel(Session& session, const PanelInputs& inputs)
+{
+    const bool isOpen = inputs.choices.surface.empty(); // where there is nothing else to look at
+    if (inputs.recent.empty() ||
+        !ImGui::CollapsingHeader("Recent", isOpen ? ImGuiTreeNodeFlags_DefaultOpen : ImGuiTreeNodeFlags_None)) {
+        return;
+    }
+    for (const std::filesystem::path& file : inputs.recent) {
+        ImGui::PushID(file.c_str());
+        if (ImGui::Selectable(file.stem().c_str(), file == inputs.choices.surface)) {
+            session.wantsToOpen = file;
+        }
+        if (ImGui::IsItemHovered()) {
+            ImGui::SetTooltip("%s", file.c_str());
+        }
+        ImGui::PopID();
     }
 }
 

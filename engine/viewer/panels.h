@@ -16,11 +16,12 @@ struct PanelInputs {
     const std::map<std::string, Texture>& thumbnails; // by MaterialChoice::specification
     const Texture* ball = nullptr;                    // the material lit as the surface is
     const DrawnSurface* drawn = nullptr;
-    const Photographs* photographs = nullptr; // once they are read
-    std::span<const uint8_t> verdicts;        // that are shown
-    std::optional<glm::ivec2> pixel;          // under the cursor, or the last that was
-    std::string comparisonFigures;            // of the photograph on screen
-    float scale = 1;                          // pixels a unit of layout
+    std::span<const std::filesystem::path> recent; // surfaces, the newest first
+    const Photographs* photographs = nullptr;      // once they are read
+    std::span<const uint8_t> verdicts;             // that are shown
+    std::optional<glm::ivec2> pixel;               // under the cursor, or the last that was
+    std::string comparisonFigures;                 // of the photograph on screen
+    float scale = 1;                               // pixels a unit of layout
 };
 
 // All of them: left and right of the picture, `width` the right ones'.
@@ -37,6 +38,7 @@ void showWipeLine(const Session& session, const Stage& stage);
 void showLightPanel(Session& session, const PanelInputs& inputs, std::vector<PlacedPicture>& placed);
 void showMaterialPanel(Session& session, const PanelInputs& inputs, std::vector<PlacedPicture>& placed);
 void showDisplayPanel(Session& session);
+void showRecentPanel(Session& session, const PanelInputs& inputs);
 void showPhotographPanel(Session& session, const PanelInputs& inputs);
 void showInspectorPanel(const Session& session, const PanelInputs& inputs);
 

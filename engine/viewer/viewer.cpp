@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 #include <fmt/format.h>
 #include <glm/common.hpp>
@@ -13,6 +14,7 @@
 #include "engine/gpu/texture.h"
 #include "engine/scene/coverage.h"
 #include "engine/scene/scene_residual.h"
+#include "engine/view_state/recent_files.h"
 #include "engine/viewer/background_loads.h"
 #include "engine/viewer/frame_pace.h"
 #include "engine/viewer/light_ball_picture.h"
@@ -49,6 +51,8 @@ private:
     void takeWhatWasRead();
     void takeScene(const ViewState& state, const LoadedScene& scene);
     void keepShown();
+    void noteRecent();
+    void openRecent();
     void followScale();
     void takeScreenshot();
     void applyState();
@@ -87,6 +91,7 @@ private:
     Stopwatch sinceTitle_;
 
     BackgroundLoads loads_;
+    RecentFiles recent_;
 };
 
 ViewerWindow::ViewerWindow(const Context& context, ViewState state, Choices choices, const SceneSource& source,
@@ -94,7 +99,7 @@ ViewerWindow::ViewerWindow(const Context& context, ViewState state, Choices choi
     : context_(context), source_(source), options_(options), window_("nacre", options.width, options.height),
       swapchain_(context, window_), windowPicture_(context), pictures_(context), lightBall_(context),
       comparison_(context), input_(std::move(state), std::move(choices)), session_(input_.session),
-      loads_(source, session_.state, Window::wake)
+      loads_(source, session_.state, Window::wake), recent_(options.recent)
 {
     session_.textScale = std::clamp(options.textScale, kLeastTextScale, kMostTextScale);
     session_.message = kHint;
@@ -104,6 +109,7 @@ ViewerWindow::ViewerWindow(const Context& context, ViewState state, Choices choi
     requireResidual(pictures_.scene().main->surface, view_, session_.state.residual);
     applyState();
     session_.opened = session_.state;
+    noteRecent();
 }
 
 void ViewerWindow::run()
@@ -179,6 +185,7 @@ void ViewerWindow::takeWhatWasRead()
                     .wantsScreenshot = session_.wantsScreenshot};
         applyState();
         session_.opened = session_.state;
+        noteRecent();
     } else if (done.scene) {
         takeScene(done.scene->state, done.scene->scene);
     } else if (done.photographs) {
@@ -220,6 +227,27 @@ void ViewerWindow::followScale()
         ui_.reset(); // ImGui is one at a time
         ui_.emplace(context_, window_, swapchain_, scale);
     }
+}
+
+void ViewerWindow::noteRecent()
+{
+    if (!input_.choices.surface.empty()) {
+        recent_.note(input_.choices.surface);
+    }
+}
+
+void ViewerWindow::openRecent()
+{
+    const std::filesystem::path surface = std::exchange(session_.wantsToOpen, {});
+    if (surface.empty()) {
+        return;
+    }
+    if (std::filesystem::is_directory(surface)) {
+        loads_.open(surface);
+    } else {
+        session_.message = fmt::format("{}: is not there any more", surface.string());
+    }
+    pace_.settle();
 }
 
 // Where what was asked for cannot or shall not be read.
@@ -329,6 +357,7 @@ void ViewerWindow::describePanels(const Stage& stage)
                              .thumbnails = thumbnails_,
                              .ball = drawn->surface.materials.empty() ? nullptr : ball_,
                              .drawn = drawn,
+                             .recent = recent_.files(),
                              .photographs = photographs(),
                              .verdicts = pictures_.verdicts(),
                              .pixel = pictures_.isTurning() ? std::nullopt : input_.pixel,
@@ -381,6 +410,7 @@ void ViewerWindow::drawFrame()
         pace_.settle();
     }
     pace_.end();
+    openRecent();
     showTitle();
     if (session_.playing) {
         play(session_, static_cast<float>(std::max(pace_.seconds(), 1 / FramePace::kMostFramesPerSecond)));

@@ -11,6 +11,7 @@ struct ViewerOptions {
     int height = 720;
     std::filesystem::path screenshots = "."; // folder
     float textScale = 1;
+    std::filesystem::path recent{}; // list of RecentFiles; empty: none is kept
 };
 
 // Opens a window on the state and returns when it is closed. The context must be one that presents (see
