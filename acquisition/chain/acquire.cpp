@@ -211,12 +211,15 @@ void judgeSamples(PreparedCapture& prepared, const Capture& capture, const Segme
     result.gathered = std::move(judged);
 }
 
-// Samples that were gathered one-way become reciprocal ones, but of materials that are not.
+// Samples that were gathered one-way become reciprocal ones, but of materials that are not. Normals of other methods
+// than exemplar follow Lambert's law: what they err by on gloss looks the same, so that they tell nothing.
 void settleCoordinates(const Segmentation& segmentation, const AcquireOptions& options, NormalsAndSamples& result)
 {
     for (size_t m = 0; m < result.gathered.samples.size() && !options.bake.coordinates; ++m) {
         BrdfSamples& samples = result.gathered.samples[m];
-        const double ratio = samples.size() > 0 ? errorRatioOneWay(samples, options.interpolation).value_or(1.0) : 1.0;
+        const std::vector<NormalMethod>& methods = result.chosen.methods;
+        const bool canTell = methods[m % methods.size()] == NormalMethod::exemplar && samples.size() > 0;
+        const double ratio = canTell ? errorRatioOneWay(samples, options.interpolation).value_or(1.0) : 1.0;
         if (ratio > kMostErrorRatioOneWay) {
             samples = reciprocalSamples(std::move(samples));
             continue;
