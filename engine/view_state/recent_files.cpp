@@ -63,7 +63,7 @@ void RecentFiles::note(const fs::path& file)
         std::error_code none;
         fs::create_directories(list_.parent_path(), none);
         writeTextFile(list_, text);
-    } catch (const Error&) { // see note()
+    } catch (const Error&) { // the list is this window's alone then
     }
 }
 
