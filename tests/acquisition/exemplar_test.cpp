@@ -70,7 +70,7 @@ TEST(Exemplar, GlossNeedNotFollowTheAlbedo)
 
 // One albedo for all pixels is kept where there is no paint, and a third more of it on every other stripe is seen. Two
 // percent of noise hide what the bins of the reflectance cannot follow.
-TEST(Exemplar, PixelsShareAnAlbedoWhereThereIsNoPaint)
+TEST(ExemplarSlow, PixelsShareAnAlbedoWhereThereIsNoPaint)
 {
     for (const float paint : {0.0f, 0.3f}) {
         ShadedScene scene = photograph(48, 48, sphere, [&](size_t p, const glm::vec3& n, const glm::vec3& l) {

@@ -83,7 +83,7 @@ TEST(Normals, LeastSquaresIsExactWhereEveryLightReaches)
     }
 }
 
-TEST(Normals, SameBytesForOneAndTwoThreadsByEveryMethod)
+TEST(NormalsSlow, SameBytesForOneAndTwoThreadsByEveryMethod)
 {
     const std::vector<Light> lights = ringOfLights(12);
     std::vector<glm::vec3> truth;
@@ -106,7 +106,7 @@ TEST(Normals, SameBytesForOneAndTwoThreadsByEveryMethod)
     }
 }
 
-TEST(Normals, WhatTheSensorClippedIsLookedAtByNoMethod)
+TEST(NormalsSlow, WhatTheSensorClippedIsLookedAtByNoMethod)
 {
     const std::vector<Light> lights = ringOfLights(18);
     std::vector<glm::vec3> truth;

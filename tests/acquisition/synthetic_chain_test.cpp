@@ -105,7 +105,7 @@ void breakReciprocity(const Capture& capture, float share)
     }
 }
 
-TEST(SyntheticChain, OnlyABrdfThatIsNotReciprocalIsKeptOneWay)
+TEST(SyntheticChainSlow, OnlyABrdfThatIsNotReciprocalIsKeptOneWay)
 {
     const TempFolder folder;
     SynthOptions synth = exactSphere();
