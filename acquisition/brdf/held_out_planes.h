@@ -11,8 +11,9 @@ struct HeldOutPlanes {
     bool areLights = false;     // else too few photographs to hold any out, and single samples are
 };
 
-// Every sixth plane of thetaD (one photograph each), neither the first nor the last; of natural coordinates planes of
-// thetaO. Every sixth sample where there are few planes. cells: condensed samples.
+// Every sixth plane of thetaD, neither the first nor the last: under distant lights a photograph each, under near ones
+// a slice of several. Of natural coordinates planes of thetaO. Every sixth sample where there are few planes. cells:
+// condensed samples.
 HeldOutPlanes holdOutPlanes(const BrdfSamples& cells);
 
 // Root mean square error of the judges' f n.l over `peak`, clipped beyond it, each by the squares of its trust and its
