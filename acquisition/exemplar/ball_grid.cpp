@@ -104,6 +104,13 @@ BallGrid makeBallGrid(int size, const std::vector<Light>& lights, int threads)
     return grid;
 }
 
+Between between(float place, int knots)
+{
+    const float last = static_cast<float>(knots) - 1, clamped = std::clamp(place, 0.0f, last);
+    const int knot = std::min(static_cast<int>(clamped), knots - 2);
+    return {knot, clamped - static_cast<float>(knot), place > 0 && place < last};
+}
+
 std::vector<LightPlace> lightPlaces(const BallGrid& grid)
 {
     std::vector<LightPlace> places;

@@ -46,6 +46,14 @@ struct BallGrid {
 
 BallGrid makeBallGrid(int size, const std::vector<Light>& lights, int threads);
 
+// A place between two of so many knots, 0, 1 and so on; where it lies beyond them, that of the last.
+struct Between {
+    int knot = 0;
+    float share = 0; // of the next one
+    bool isInside = false;
+};
+Between between(float place, int knots);
+
 // A light as the bins of thetaD see it: between the middles of two.
 struct LightPlace {
     glm::vec3 direction{0}, half{0};

@@ -170,6 +170,8 @@ float refineWithOneAlbedo(const PixelLattice& lattice, int threads, MatchModel& 
     }
     const double lights = static_cast<double>(lattice.lightCount);
     if (costRatio(lattice, tried, moved, matches) < kOneAlbedoMargin * std::sqrt((lights - 2) / (lights - 3))) {
+        tried.reflectance.coupling.assign(kCouplingKnots * kCouplingKnots * kCouplingDifferences, 0);
+        refineJointly(lattice, threads, tried, moved);
         sweepMatches(tried, lattice, kNarrowSteps, {}, threads, moved);
         polishMatches(tried, lattice, threads, moved);
         model = std::move(tried);

@@ -31,6 +31,8 @@ constexpr double kMostTurn = 0.05, kMostScaling = 0.5;
 constexpr float kLeastZ = 0.02f;
 // Curvature of T along thetaH, of u and v, slope of T along thetaD: what a few observations of a texel outweigh.
 constexpr double kLobePrior = 0.5, kShadePrior = 150;
+// Less of them where w is known as well, whose size, curvature by n.l and n.v, and slope by thetaD weigh so much.
+constexpr double kEaseOfCoupling = 0.3, kCouplingPrior = 1;
 constexpr double kAnchorPrior = 1e3, kStayPrior = 1e-6;
 constexpr float kAsinhUnit = 0.1f; // of the median albedo
 
@@ -57,8 +59,9 @@ double lossOf(float residual, float limit)
 
 // Calls the function with each row of the prior: its weight, its value, whose square is penalised, and the factors of
 // the unknowns in it.
-template <class Row> void eachPriorRow(const Eigen::VectorXd& unknowns, const Row& visit)
+template <class Row> void eachPriorRow(const Reflectance& like, const Eigen::VectorXd& unknowns, const Row& visit)
 {
+    const double ease = like.coupling.empty() ? 1 : kEaseOfCoupling;
     using Terms = std::initializer_list<std::pair<int, double>>;
     const auto row = [&](double weight, Terms terms) {
         double value = 0;
@@ -70,25 +73,39 @@ template <class Row> void eachPriorRow(const Eigen::VectorXd& unknowns, const Ro
     for (int k = 0; k < kLobeUnknowns; ++k) {
         const int half = k / kDifferenceBins;
         if (half > 0 && half + 1 < kHalfBins) {
-            row(kLobePrior, Terms{{k - kDifferenceBins, 1}, {k, -2}, {k + kDifferenceBins, 1}});
+            row(ease * kLobePrior, Terms{{k - kDifferenceBins, 1}, {k, -2}, {k + kDifferenceBins, 1}});
         }
         if (k % kDifferenceBins + 1 < kDifferenceBins) {
-            row(kLobePrior, Terms{{k, 1}, {k + 1, -1}});
+            row(ease * kLobePrior, Terms{{k, 1}, {k + 1, -1}});
         }
         row(kStayPrior, Terms{{k, 1}});
     }
     for (const int first : {kShadeUnknowns, kSlantUnknowns}) {
         for (int k = first + 1; k + 1 < first + kShadeKnots; ++k) {
-            row(kShadePrior, Terms{{k - 1, 1}, {k, -2}, {k + 1, 1}});
+            row(ease * kShadePrior, Terms{{k - 1, 1}, {k, -2}, {k + 1, 1}});
         }
         row(kAnchorPrior, Terms{{first + 12, 0.2}, {first + 13, 0.8}}); // u = 0 at n.l = 0.8, v at n.v
     }
+    constexpr int nextD = 1, nextV = kCouplingDifferences, nextL = kCouplingKnots * nextV;
+    for (int k = 0; k < static_cast<int>(like.coupling.size()); ++k) {
+        const int w = kCouplingUnknowns + k, v = k / nextV % kCouplingKnots, l = k / nextL;
+        row(kCouplingPrior, Terms{{w, 1}});
+        if (k % kCouplingDifferences + 1 < kCouplingDifferences) {
+            row(kCouplingPrior, Terms{{w, 1}, {w + nextD, -1}});
+        }
+        if (v > 0 && v + 1 < kCouplingKnots) {
+            row(kCouplingPrior, Terms{{w - nextV, 1}, {w, -2}, {w + nextV, 1}});
+        }
+        if (l > 0 && l + 1 < kCouplingKnots) {
+            row(kCouplingPrior, Terms{{w - nextL, 1}, {w, -2}, {w + nextL, 1}});
+        }
+    }
 }
 
-double priorCost(const Eigen::VectorXd& unknowns)
+double priorCost(const Reflectance& like, const Eigen::VectorXd& unknowns)
 {
     double cost = 0;
-    eachPriorRow(unknowns, [&](double weight, double value, auto) { cost += weight * value * value / 2; });
+    eachPriorRow(like, unknowns, [&](double weight, double value, auto) { cost += weight * value * value / 2; });
     return cost;
 }
 
@@ -109,27 +126,27 @@ double costOf(const Problem& problem, const Estimate& estimate)
             }
         }
     });
-    return std::accumulate(costs.begin(), costs.end(), priorCost(estimate.unknowns));
+    return std::accumulate(costs.begin(), costs.end(), priorCost(problem.like, estimate.unknowns));
 }
 
 // The normal equations of the unknowns that all pixels share. Of the matrix the lower triangle is told.
 struct SharedEquations {
-    Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(kReflectanceUnknowns, kReflectanceUnknowns);
-    Eigen::VectorXd right = Eigen::VectorXd::Zero(kReflectanceUnknowns);
+    Eigen::MatrixXd matrix;
+    Eigen::VectorXd right;
 };
 
 // A pixel's own ones, and how they hang together with those.
 struct PixelEquations {
     Eigen::Matrix3d matrix = Eigen::Matrix3d::Zero();
     Eigen::Vector3d right = Eigen::Vector3d::Zero();
-    Eigen::Matrix<double, 3, Eigen::Dynamic> cross =
-        Eigen::Matrix<double, 3, Eigen::Dynamic>::Zero(3, kReflectanceUnknowns);
+    Eigen::Matrix<double, 3, Eigen::Dynamic> cross;
 };
 
 PixelEquations equationsOf(const Problem& problem, const SlopedReflectance& sloped, const PixelGuess& guess,
                            SharedEquations& shared)
 {
     PixelEquations own;
+    own.cross.setZero(3, shared.right.size());
     const NormalBasis basis = basisOf(guess.normal);
     for (size_t i = 0; i < problem.lights.size(); ++i) {
         const float observed = problem.lattice.rootsOf(guess.pixel)[i];
@@ -161,13 +178,16 @@ SharedEquations eliminated(const Problem& problem, const Estimate& estimate, dou
 {
     const SlopedReflectance sloped = reflectanceOf(estimate.unknowns, problem.unit, problem.like);
     const size_t count = estimate.guesses.size();
+    const Eigen::Index unknowns = estimate.unknowns.size();
     pixels.resize(count);
     std::array<SharedEquations, 2> halves; // two, whatever the number of threads
     parallelFor(halves.size(), 1, problem.threads, [&](size_t half, size_t) {
         SharedEquations& shared = halves[half];
+        shared.matrix.setZero(unknowns, unknowns);
+        shared.right.setZero(unknowns);
         for (size_t first = half * kRefinedPerTask; first < count; first += halves.size() * kRefinedPerTask) {
             const size_t last = std::min(count, first + kRefinedPerTask);
-            Eigen::MatrixXf stacked(3 * (last - first), kReflectanceUnknowns);
+            Eigen::MatrixXf stacked(3 * (last - first), unknowns);
             for (size_t p = first; p < last; ++p) {
                 PixelEquations& own = pixels[p];
                 own = equationsOf(problem, sloped, estimate.guesses[p], shared);
@@ -178,7 +198,7 @@ SharedEquations eliminated(const Problem& problem, const Estimate& estimate, dou
                     factor.matrixL().solve(own.cross).cast<float>();
                 shared.right -= own.cross.transpose() * factor.solve(own.right);
             }
-            Eigen::MatrixXf taken = Eigen::MatrixXf::Zero(kReflectanceUnknowns, kReflectanceUnknowns);
+            Eigen::MatrixXf taken = Eigen::MatrixXf::Zero(unknowns, unknowns);
             taken.selfadjointView<Eigen::Lower>().rankUpdate(stacked.transpose());
             shared.matrix -= taken.cast<double>();
         }
@@ -188,9 +208,9 @@ SharedEquations eliminated(const Problem& problem, const Estimate& estimate, dou
     return std::move(halves[0]);
 }
 
-void addPrior(const Eigen::VectorXd& unknowns, SharedEquations& shared)
+void addPrior(const Reflectance& like, const Eigen::VectorXd& unknowns, SharedEquations& shared)
 {
-    eachPriorRow(unknowns, [&](double weight, double value, auto terms) {
+    eachPriorRow(like, unknowns, [&](double weight, double value, auto terms) {
         for (const auto& [a, p] : terms) {
             shared.right[a] -= weight * p * value;
             for (const auto& [b, q] : terms) {
@@ -215,7 +235,7 @@ Estimate stepFrom(const Problem& problem, const Estimate& estimate, double dampi
 {
     std::vector<PixelEquations> pixels;
     SharedEquations shared = eliminated(problem, estimate, damping, pixels);
-    addPrior(estimate.unknowns, shared);
+    addPrior(problem.like, estimate.unknowns, shared);
     shared.matrix.diagonal() *= 1 + damping;
     Eigen::VectorXd change = shared.matrix.selfadjointView<Eigen::Lower>().ldlt().solve(shared.right);
     change /= std::max(1.0, change.cwiseAbs().maxCoeff());

@@ -10,8 +10,8 @@ namespace nacre {
 // Kriegman, Toward Reconstructing Surfaces with Arbitrary Isotropic Reflectance, 2007). Levenberg's and Marquardt's
 // steps on the residuals of the matches, with weights that fall linearly to zero; each pixel's three unknowns are
 // eliminated (Triggs, McLauchlan, Hartley, Fitzgibbon, Bundle Adjustment, 2000, section 6.1). The reflectance keeps its
-// form and its b; it is measured on a part of the pixels, spread evenly, whose matches move along. Costs of matches are
-// forgotten. The result does not depend on `threads`.
+// form, with w or without, and its b; it is measured on a part of the pixels, spread evenly, whose matches move along.
+// Costs of matches are forgotten. The result does not depend on `threads`.
 void refineJointly(const PixelLattice& lattice, int threads, MatchModel& model, std::vector<BallMatch>& matches);
 
 } // namespace nacre

@@ -93,10 +93,8 @@ void addFits(const std::string& family, const std::vector<NamedBrdf>& fits, cons
 
 float atCosine(const std::array<float, kShadeKnots>& knots, float cosine)
 {
-    const float place = std::clamp(cosine, 0.0f, 1.0f) * (kShadeKnots - 1);
-    const int knot = std::min(static_cast<int>(place), kShadeKnots - 2);
-    const float share = place - static_cast<float>(knot);
-    return knots[knot] * (1 - share) + knots[knot + 1] * share;
+    const Between at = between(cosine * (kShadeKnots - 1), kShadeKnots);
+    return knots[at.knot] * (1 - at.share) + knots[at.knot + 1] * at.share;
 }
 
 } // namespace
@@ -109,6 +107,37 @@ float Reflectance::shadeAt(float cosine) const
 float Reflectance::slantAt(float cosine) const
 {
     return atCosine(slant, cosine);
+}
+
+float Reflectance::couplingAt(float nDotL, float nDotV, const LightPlace& light) const
+{
+    float sum = 0;
+    if (!coupling.empty()) {
+        const CouplingPlace at = couplingPlace(nDotL, nDotV, light);
+        for (int k = 0; k < 8; ++k) {
+            sum += at.weights[k] * coupling[at.knots[k]];
+        }
+    }
+    return sum;
+}
+
+CouplingPlace couplingPlace(float nDotL, float nDotV, const LightPlace& light)
+{
+    const float difference = (static_cast<float>(light.difference) + light.nextShare) / (kDifferenceBins - 1);
+    const Between l = between(nDotL * (kCouplingKnots - 1), kCouplingKnots),
+                  v = between(nDotV * (kCouplingKnots - 1), kCouplingKnots),
+                  d = between(difference * (kCouplingDifferences - 1), kCouplingDifferences);
+    CouplingPlace place;
+    for (int k = 0; k < 8; ++k) {
+        const int nextL = k & 1, nextV = k >> 1 & 1, nextD = k >> 2;
+        const float ofL = nextL ? l.share : 1 - l.share, ofV = nextV ? v.share : 1 - v.share,
+                    ofD = nextD ? d.share : 1 - d.share;
+        place.knots[k] = ((l.knot + nextL) * kCouplingKnots + v.knot + nextV) * kCouplingDifferences + d.knot + nextD;
+        place.weights[k] = ofL * ofV * ofD;
+        place.slopesByL[k] = (nextL ? 1 : -1) * (kCouplingKnots - 1) * ofV * ofD;
+        place.slopesByV[k] = (nextV ? 1 : -1) * (kCouplingKnots - 1) * ofL * ofD;
+    }
+    return place;
 }
 
 std::array<float, kShadeKnots> shadeOfPower(float exponent)
@@ -149,10 +178,11 @@ ReflectanceBall makeReflectanceBall(const BallGrid& grid, const Reflectance& ref
     ball.bright.resize(grid.normals.size());
     ball.middling.resize(grid.normals.size());
     const std::vector<float> profiles = lightProfiles(grid, reflectance);
+    const std::vector<LightPlace> lights = lightPlaces(grid);
     parallelFor(grid.normals.size(), kBallRowsPerTask, threads, [&](size_t first, size_t last) {
         std::vector<float> values;
         for (size_t row = first; row < last; ++row) {
-            const float slanted = std::exp(reflectance.slantAt(grid.normals[row].z)),
+            const float nDotV = grid.normals[row].z, slanted = std::exp(reflectance.slantAt(nDotV)),
                         bounced = slanted * reflectance.bounced;
             for (size_t i = 0; i < grid.lightCount; ++i) {
                 const size_t at = row * grid.stride + i;
@@ -168,7 +198,8 @@ ReflectanceBall makeReflectanceBall(const BallGrid& grid, const Reflectance& ref
                 const float share = grid.halfBins[at] - static_cast<float>(bin);
                 const float* profile = &profiles[i * kHalfBins + bin];
                 const float lobe = (profile[0] * (1 - share) + profile[1] * share) * cosine;
-                ball.diffuse[at] += slanted * shades[at] * (reflectance.additive ? cosine : lobe);
+                const float coupled = std::exp(reflectance.couplingAt(cosine, nDotV, lights[i]));
+                ball.diffuse[at] += slanted * coupled * shades[at] * (reflectance.additive ? cosine : lobe);
                 if (reflectance.additive) {
                     ball.gloss[at] = lobe;
                 } else {

@@ -13,25 +13,38 @@
 namespace nacre {
 
 constexpr int kShadeKnots = 17; // n.l = 0, 1/16, ... 1
+// Of n.l and of n.v from 0 to 1, and of thetaD up to the largest.
+constexpr int kCouplingKnots = 5, kCouplingDifferences = 3;
 
 // A grey reflectance as a fixed view sees it, up to each pixel's albedo a. What a pixel with normal n shows of a light
 // of irradiance 1 is
 //   a (T(thetaH, thetaD) e^u(n.l) n.l + b)       where gloss is scaled by the albedo, or
 //   a (e^u(n.l) n.l + b) + T(thetaH, thetaD) n.l where gloss is common to the object (additive), whatever the albedo.
 // u is how the diffuse part departs from Lambert's law: 0 is none. b is light that reaches the pixel by way of its
-// surroundings, wherever the lamp stands: 0 is none. Where all pixels have one albedo, a e^v(n.v) stands for a; v is 0
-// elsewhere, since albedos take it.
+// surroundings, wherever the lamp stands: 0 is none. Where all pixels have one albedo, a e^v(n.v) stands for a, and
+// u(n.l) + w(n.l, n.v, thetaD) for u: v is what albedos take elsewhere, and w, small and smooth, what of a measured
+// material no product of functions of one or two angles holds.
 struct Reflectance {
     bool additive = false;
-    std::array<float, kShadeKnots> shade{};                                          // u
-    float bounced = 0;                                                               // b
-    std::optional<float> oneAlbedo;                                                  // a, where all pixels have it
-    std::array<float, kShadeKnots> slant{};                                          // v
+    std::array<float, kShadeKnots> shade{}; // u
+    float bounced = 0;                      // b
+    std::optional<float> oneAlbedo;         // a, where all pixels have it
+    std::array<float, kShadeKnots> slant{}; // v
+    std::vector<float> coupling;            // w [(n.l * knots + n.v) * differences + thetaD]; empty: 0
     std::vector<float> lobe = std::vector<float>(kHalfBins * kDifferenceBins, 1.0f); // T [half * bins + difference]
 
     float shadeAt(float cosine) const;
     float slantAt(float cosine) const;
+    float couplingAt(float nDotL, float nDotV, const LightPlace& light) const;
 };
+
+// w between the eight knots around it: w is the sum of the knots' values by their weights, and its derivatives by n.l
+// and by n.v those by their slopes.
+struct CouplingPlace {
+    std::array<int, 8> knots{};
+    std::array<float, 8> weights{}, slopesByL{}, slopesByV{};
+};
+CouplingPlace couplingPlace(float nDotL, float nDotV, const LightPlace& light);
 
 // The least that additive gloss leaves of the diffuse part, where the measured one is negative.
 constexpr float kLeastGlossShare = 0.05f;

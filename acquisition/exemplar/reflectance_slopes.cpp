@@ -14,20 +14,6 @@ constexpr double kLeastLobe = 1e-6;
 // The slope of a root is infinite at 0: it is taken here at least.
 constexpr float kLeastRoot = 0.03f;
 
-// A place between two of so many knots.
-struct Between {
-    int knot;
-    float share; // of the next one
-    bool isInside;
-};
-
-Between between(float place, int knots)
-{
-    const float last = static_cast<float>(knots) - 1.001f, clamped = std::clamp(place, 0.0f, last);
-    const int knot = static_cast<int>(clamped);
-    return {knot, clamped - static_cast<float>(knot), place > 0 && place < last};
-}
-
 // T where a normal's thetaH meets a light's thetaD: four texels, bilinearly.
 struct LobeAt {
     std::array<int, 4> texels{};
@@ -71,8 +57,14 @@ RootSlopes ownSlopes(const SlopedReflectance& sloped, const PixelGuess& guess, c
     }
     const LobeAt lobe = lobeAt(reflectance.lobe, light, glm::dot(guess.normal, light.half));
     const Between knot = between(cosine * (kShadeKnots - 1), kShadeKnots);
-    const float shade = std::exp(reflectance.shadeAt(cosine)),
-                shadeSlope = (reflectance.shade[knot.knot + 1] - reflectance.shade[knot.knot]) * (kShadeKnots - 1);
+    const CouplingPlace coupling = couplingPlace(cosine, guess.normal.z, light);
+    const float shade = std::exp(reflectance.shadeAt(cosine) + reflectance.couplingAt(cosine, guess.normal.z, light));
+    float shadeSlope = (reflectance.shade[knot.knot + 1] - reflectance.shade[knot.knot]) * (kShadeKnots - 1),
+          slantSlope = 0; // of u + w by n.l and by n.v
+    for (size_t k = 0; k < 8 && !reflectance.coupling.empty(); ++k) {
+        shadeSlope += coupling.slopesByL[k] * reflectance.coupling[coupling.knots[k]];
+        slantSlope += coupling.slopesByV[k] * reflectance.coupling[coupling.knots[k]];
+    }
     // What is shown, a p + b a, and its derivatives by n.l, cos(thetaH), log a, T and u.
     float value, byCosine, byHalf, byScale, byLobe, byShade;
     if (reflectance.additive) {
@@ -95,7 +87,8 @@ RootSlopes ownSlopes(const SlopedReflectance& sloped, const PixelGuess& guess, c
     result.root = std::sqrt(value);
     const float half = 0.5f / std::max(result.root, kLeastRoot); // d sqrt(v) = dv / 2 sqrt(v)
     const auto byStep = [&](const glm::vec3& step) {
-        return half * (byCosine * glm::dot(step, light.direction) + byHalf * glm::dot(step, light.half));
+        return half * (byCosine * glm::dot(step, light.direction) + byHalf * glm::dot(step, light.half) +
+                       byShade * slantSlope * step.z);
     };
     result.byPixel = {byStep(basis.across), byStep(basis.along), half * byScale};
     for (int k = 0; k < 4; ++k) {
@@ -107,6 +100,10 @@ RootSlopes ownSlopes(const SlopedReflectance& sloped, const PixelGuess& guess, c
     result.unknowns[5] = kShadeUnknowns + knot.knot + 1;
     result.byUnknown[5] = half * byShade * knot.share;
     result.count = 6;
+    for (size_t k = 0; k < 8 && !reflectance.coupling.empty(); ++k) {
+        result.unknowns[result.count] = kCouplingUnknowns + coupling.knots[k];
+        result.byUnknown[result.count++] = half * byShade * coupling.weights[k];
+    }
     return result;
 }
 
@@ -114,7 +111,8 @@ RootSlopes ownSlopes(const SlopedReflectance& sloped, const PixelGuess& guess, c
 
 Eigen::VectorXd unknownsOf(const Reflectance& reflectance, float unit)
 {
-    Eigen::VectorXd unknowns(kReflectanceUnknowns);
+    const int coupled = static_cast<int>(reflectance.coupling.size());
+    Eigen::VectorXd unknowns(kCouplingUnknowns + coupled);
     for (int k = 0; k < kLobeUnknowns; ++k) {
         const double value = reflectance.lobe[k];
         unknowns[k] = reflectance.additive ? std::asinh(value / unit) : std::log(std::max(value, kLeastLobe));
@@ -122,6 +120,9 @@ Eigen::VectorXd unknownsOf(const Reflectance& reflectance, float unit)
     for (int k = 0; k < kShadeKnots; ++k) {
         unknowns[kShadeUnknowns + k] = reflectance.shade[k];
         unknowns[kSlantUnknowns + k] = reflectance.slant[k];
+    }
+    for (int k = 0; k < coupled; ++k) {
+        unknowns[kCouplingUnknowns + k] = reflectance.coupling[k];
     }
     return unknowns;
 }
@@ -137,6 +138,9 @@ SlopedReflectance reflectanceOf(const Eigen::VectorXd& unknowns, float unit, con
     for (int k = 0; k < kShadeKnots; ++k) {
         result.reflectance.shade[k] = static_cast<float>(unknowns[kShadeUnknowns + k]);
         result.reflectance.slant[k] = static_cast<float>(unknowns[kSlantUnknowns + k]);
+    }
+    for (size_t k = 0; k < like.coupling.size(); ++k) {
+        result.reflectance.coupling[k] = static_cast<float>(unknowns[kCouplingUnknowns + static_cast<int>(k)]);
     }
     return result;
 }

@@ -10,11 +10,11 @@
 namespace nacre {
 
 // The numbers that make a reflectance: T by its logarithm, or where gloss is additive, and may be negative, by
-// asinh(T / unit); then u, then v.
+// asinh(T / unit); then u, then v, then w where there is one.
 constexpr int kLobeUnknowns = kHalfBins * kDifferenceBins;
 constexpr int kShadeUnknowns = kLobeUnknowns; // the first of u
 constexpr int kSlantUnknowns = kShadeUnknowns + kShadeKnots;
-constexpr int kReflectanceUnknowns = kSlantUnknowns + kShadeKnots;
+constexpr int kCouplingUnknowns = kSlantUnknowns + kShadeKnots;
 
 Eigen::VectorXd unknownsOf(const Reflectance& reflectance, float unit);
 
@@ -24,7 +24,7 @@ struct SlopedReflectance {
     std::vector<float> lobeSlopes; // of T by its unknown
 };
 
-// `like` says what the unknowns do not: the form and b.
+// `like` says what the unknowns do not: the form, b, and whether there is a w.
 SlopedReflectance reflectanceOf(const Eigen::VectorXd& unknowns, float unit, const Reflectance& like);
 
 // A pixel by its normal and its albedo over its own bright level.
@@ -46,8 +46,8 @@ NormalBasis basisOf(const glm::vec3& normal);
 struct RootSlopes {
     float root = 0;
     std::array<float, 3> byPixel{};
-    std::array<int, 8> unknowns{};
-    std::array<float, 8> byUnknown{};
+    std::array<int, 16> unknowns{};
+    std::array<float, 16> byUnknown{};
     int count = 0; // of the unknowns
 };
 RootSlopes rootSlopes(const SlopedReflectance& sloped, const PixelGuess& guess, const NormalBasis& basis, float bright,

@@ -1,5 +1,6 @@
 #include "acquisition/exemplar/joint_refinement.h"
 
+#include <array>
 #include <cmath>
 
 #include <glm/geometric.hpp>
@@ -46,6 +47,30 @@ void startWith(const ShadedScene& scene, float slopes, bool additive, Start& sta
     }
 }
 
+// w of Reflectance that grows evenly along n.l, n.v and thetaD.
+std::vector<float> straightCoupling()
+{
+    std::vector<float> coupling;
+    for (int l = 0; l < kCouplingKnots; ++l) {
+        for (int v = 0; v < kCouplingKnots; ++v) {
+            for (int d = 0; d < kCouplingDifferences; ++d) {
+                coupling.push_back(0.1f * static_cast<float>(l) - 0.06f * static_cast<float>(v) +
+                                   0.05f * static_cast<float>(d));
+            }
+        }
+    }
+    return coupling;
+}
+
+void giveOneAlbedo(Start& start)
+{
+    std::vector<float> albedos;
+    for (size_t p = 0; p < start.matches.size(); ++p) {
+        albedos.push_back(start.matches[p].scale * start.lattice.bright[p]);
+    }
+    start.model.reflectance.oneAlbedo = quantile(albedos, 0.5);
+}
+
 double meanError(const ShadedScene& scene, const Start& start)
 {
     double sum = 0;
@@ -68,6 +93,7 @@ TEST(JointRefinement, SlopesAreThoseOfDifferences)
         reflectance.bounced = 0.05f;
         if (form == Form::oneAlbedo) {
             reflectance.oneAlbedo = 0.4f;
+            reflectance.coupling = straightCoupling();
         }
         for (int k = 0; k < kShadeKnots; ++k) {
             reflectance.shade[k] = 0.03f * static_cast<float>(k); // straight, as the lobe is: no knots between
@@ -101,7 +127,7 @@ TEST(JointRefinement, SlopesAreThoseOfDifferences)
                             return rootAt(unknowns, {0, guess.normal, -0.4f + t}, light);
                         }),
                         3e-3f);
-            ASSERT_EQ(slopes.count, form == Form::oneAlbedo ? 8 : 6);
+            ASSERT_EQ(slopes.count, form == Form::oneAlbedo ? 16 : 6);
             for (int k = 0; k < slopes.count; ++k) {
                 EXPECT_NEAR(slopes.byUnknown[k], difference([&](float t) {
                                 Eigen::VectorXd at = unknowns;
@@ -137,14 +163,51 @@ TEST(JointRefinement, OneAlbedoFindsSlopesAndHowTheyDarkenFromAside)
     });
     Start start;
     startWith(scene, 1.15f, false, start);
-    std::vector<float> albedos;
-    for (size_t p = 0; p < start.matches.size(); ++p) {
-        albedos.push_back(start.matches[p].scale * start.lattice.bright[p]);
-    }
-    start.model.reflectance.oneAlbedo = quantile(albedos, 0.5);
+    giveOneAlbedo(start);
     refineJointly(start.lattice, 2, start.model, start.matches);
     EXPECT_LT(meanError(scene, start), 0.3);
     EXPECT_NEAR(start.model.reflectance.slantAt(0.95f) - start.model.reflectance.slantAt(0.55f), 0.8f * 0.4f, 0.03f);
+}
+
+// By a law that is no product of functions of one or two angles, slopes make up for what is missing, unless w does.
+TEST(JointRefinement, CouplingHoldsWhatNoProductDoes)
+{
+    const ShadedScene scene = photograph(26, 26, sphere, [](size_t p, const glm::vec3& n, const glm::vec3& l) {
+        const float aside = glm::dot(n, l) - 0.5f;
+        return std::exp(4 * aside * aside * (n.z - 0.7f)) * varnish(p, n, l);
+    });
+    std::array<double, 2> errors{};
+    for (const bool coupled : {false, true}) {
+        Start start;
+        startWith(scene, 1.0f, false, start);
+        giveOneAlbedo(start);
+        if (coupled) {
+            start.model.reflectance.coupling.assign(straightCoupling().size(), 0.0f);
+        }
+        refineJointly(start.lattice, 2, start.model, start.matches);
+        errors[coupled] = meanError(scene, start);
+    }
+    EXPECT_LT(errors[1], 0.7 * errors[0]) << errors[0];
+}
+
+// What steps are taken by is what matches are then sought on.
+TEST(JointRefinement, PredictsWhatTheBallShows)
+{
+    const BallGrid grid = makeBallGrid(kBallSize, lightsAround(5), 1);
+    const std::vector<LightPlace> lights = lightPlaces(grid);
+    Reflectance reflectance;
+    reflectance.bounced = 0.05f;
+    reflectance.oneAlbedo = 1.0f;
+    reflectance.coupling = straightCoupling();
+    reflectance.slant = reflectance.shade = shadeOfPower(1.3f);
+    const ReflectanceBall ball = makeReflectanceBall(grid, reflectance, 1);
+    const SlopedReflectance sloped = reflectanceOf(unknownsOf(reflectance, 0.1f), 0.1f, reflectance);
+    for (size_t row = 0; row < grid.normals.size(); row += 37) {
+        for (size_t i = 0; i < lights.size(); ++i) {
+            const float root = rootSlopes(sloped, {0, grid.normals[row], 0}, {}, 1, lights[i]).root;
+            EXPECT_NEAR(root, ball.roots[row * grid.stride + i], 1e-4f) << row << ' ' << i;
+        }
+    }
 }
 
 TEST(JointRefinement, DoesNotDependOnThreads)
