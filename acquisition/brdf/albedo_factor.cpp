@@ -1,11 +1,15 @@
 #include "acquisition/brdf/albedo_factor.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <numeric>
+#include <vector>
 
 #include <glm/geometric.hpp>
 
 #include "acquisition/brdf/pixel_prediction.h"
+#include "engine/files/measures.h"
 #include "engine/files/parallel_for.h"
 
 namespace nacre {
@@ -79,29 +83,31 @@ void refitAlbedo(const Observations& block, const NormalMap& normals, const Loca
     });
 }
 
-glm::vec3 normaliseAlbedo(Image& albedo, BrdfTable& table)
+glm::vec3 normaliseAlbedo(bool haveOneAlbedo, Image& albedo, BrdfTable& table)
 {
-    glm::vec3 means(1);
-    glm::dvec3 sum(0);
-    size_t pixels = 0;
+    std::array<std::vector<float>, 3> factors;
     for (size_t i = 0; i < albedo.values.size(); i += 3) {
         const glm::vec3 factor(albedo.values[i], albedo.values[i + 1], albedo.values[i + 2]);
-        if (factor != glm::vec3(0)) {
-            sum += glm::dvec3(factor);
-            ++pixels;
+        for (int c = 0; c < 3 && factor != glm::vec3(0); ++c) {
+            factors[c].push_back(factor[c]);
         }
     }
+    glm::vec3 taken(1);
     for (int c = 0; c < 3; ++c) {
-        const double mean = pixels && sum[c] > 0 ? sum[c] / static_cast<double>(pixels) : 1;
-        means[c] = static_cast<float>(mean);
+        const double middle = factors[c].empty() ? 0
+                              : haveOneAlbedo    ? double{quantile(factors[c], 0.5)}
+                                                 : std::accumulate(factors[c].begin(), factors[c].end(), 0.0) /
+                                                    static_cast<double>(factors[c].size());
+        const double divisor = middle > 0 ? middle : 1;
+        taken[c] = static_cast<float>(divisor);
         for (size_t i = c; i < albedo.values.size(); i += 3) {
-            albedo.values[i] = static_cast<float>(albedo.values[i] / mean);
+            albedo.values[i] = static_cast<float>(albedo.values[i] / divisor);
         }
         for (glm::vec3& value : table.values) {
-            value[c] = static_cast<float>(value[c] * mean);
+            value[c] = static_cast<float>(value[c] * divisor);
         }
     }
-    return means;
+    return taken;
 }
 
 } // namespace nacre

@@ -23,7 +23,8 @@ void refitAlbedo(const Observations& block, const NormalMap& normals, const Loca
                  int threads, Image& albedo);
 
 // Makes the mean over the pixels that have a factor 1 in each channel, and gives the table what was taken from them.
-// Answers what that was: the means.
-glm::vec3 normaliseAlbedo(Image& albedo, BrdfTable& table);
+// Where all pixels share one albedo it is the median: the factors of hollows, which light themselves, are too high, and
+// coloured as light is that bounced twice. Answers what was taken.
+glm::vec3 normaliseAlbedo(bool haveOneAlbedo, Image& albedo, BrdfTable& table);
 
 } // namespace nacre

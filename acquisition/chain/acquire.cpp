@@ -84,8 +84,8 @@ BakedMaterials bakeAll(const std::vector<BrdfSamples>& samples, const Segmentati
 
 // Refits every pixel's factor to its material's table; the tables take what the factors' mean comes to.
 Image finishAlbedo(const Capture& capture, PreparedCapture& prepared, const NormalMap& normals,
-                   const std::vector<uint8_t>& labels, Image albedo, std::vector<BakedMaterial>& baked, int threads,
-                   StageClock& clock, const Progress& progress)
+                   const std::vector<uint8_t>& labels, const std::vector<uint8_t>& haveOneAlbedo, Image albedo,
+                   std::vector<BakedMaterial>& baked, int threads, StageClock& clock, const Progress& progress)
 {
     std::vector<BrdfTable*> tables;
     for (BakedMaterial& material : baked) {
@@ -96,7 +96,7 @@ Image finishAlbedo(const Capture& capture, PreparedCapture& prepared, const Norm
     while (const Observations* block = walk.next()) {
         refitAlbedo(*block, normals, lights, labels, tables, threads, albedo);
     }
-    const std::vector<glm::vec3> scales = finishAlbedo(capture, labels, tables, albedo);
+    const std::vector<glm::vec3> scales = finishAlbedo(capture, labels, haveOneAlbedo, tables, albedo);
     for (size_t i = 0; i < baked.size(); ++i) {
         baked[i].scale = scales[i];
     }
@@ -271,7 +271,7 @@ Acquisition acquire(const Capture& capture, const AcquireOptions& options, const
     progress("baking", 0);
     clock.enter("baking");
     auto [baked, interpolations] = bakeAll(gathered.samples, result.segmentation, options);
-    Image albedo = finishAlbedo(capture, prepared, estimate.normals, result.segmentation.labels,
+    Image albedo = finishAlbedo(capture, prepared, estimate.normals, result.segmentation.labels, chosen.haveOneAlbedo,
                                 std::move(gathered.albedo), baked, options.bake.threads, clock, progress);
     clock.enter("model");
     ReducedMaterials reduced = reduceMaterials(std::move(baked), options.ladder);

@@ -23,12 +23,13 @@ Image keptWhere(const Image& albedo, const std::vector<uint8_t>& take)
     return kept;
 }
 
-glm::vec3 finishOne(const Capture& capture, const std::vector<uint8_t>& object, BrdfTable& table, Image& albedo)
+glm::vec3 finishOne(const Capture& capture, const std::vector<uint8_t>& object, bool haveOneAlbedo, BrdfTable& table,
+                    Image& albedo)
 {
     if (!capture.smooth.empty()) {
         fillSmoothly(albedo, capture.smooth, object);
     }
-    return normaliseAlbedo(albedo, table);
+    return normaliseAlbedo(haveOneAlbedo, albedo, table);
 }
 
 } // namespace
@@ -81,17 +82,18 @@ void refitAlbedo(const Observations& block, const NormalMap& normals, const Loca
 }
 
 std::vector<glm::vec3> finishAlbedo(const Capture& capture, std::span<const uint8_t> labels,
-                                    std::span<BrdfTable* const> tables, Image& albedo)
+                                    std::span<const uint8_t> haveOneAlbedo, std::span<BrdfTable* const> tables,
+                                    Image& albedo)
 {
     if (tables.size() == 1) {
-        return {finishOne(capture, capture.mask, *tables[0], albedo)};
+        return {finishOne(capture, capture.mask, haveOneAlbedo[0], *tables[0], albedo)};
     }
     std::vector<glm::vec3> scales;
     for (size_t m = 0; m < tables.size(); ++m) {
         std::vector<uint8_t> object(labels.size());
         std::transform(labels.begin(), labels.end(), object.begin(), [&](uint8_t label) { return label == m; });
         Image own = keptWhere(albedo, object);
-        scales.push_back(finishOne(capture, object, *tables[m], own));
+        scales.push_back(finishOne(capture, object, haveOneAlbedo[m], *tables[m], own));
         for (size_t i = 0; i < object.size(); ++i) {
             if (object[i]) {
                 std::copy_n(&own.values[3 * i], 3, &albedo.values[3 * i]);

@@ -20,9 +20,11 @@ std::vector<uint8_t> takeSlopeTrends(const NormalMap& normals, const LocalLights
 void refitAlbedo(const Observations& block, const NormalMap& normals, const LocalLights& lights,
                  std::span<const uint8_t> labels, std::span<BrdfTable* const> tables, int threads, Image& albedo);
 
-// Smooths factors in where the capture marks it, and makes their mean 1 over each material's pixels: no material's
-// factors reach another's. The tables take what was divided out; it is answered as well.
+// Smooths factors in where the capture marks it, and makes their mean, or their median where they share one albedo, 1
+// over each material's pixels: no material's factors reach another's. The tables take what was divided out; it is
+// answered as well.
 std::vector<glm::vec3> finishAlbedo(const Capture& capture, std::span<const uint8_t> labels,
-                                    std::span<BrdfTable* const> tables, Image& albedo);
+                                    std::span<const uint8_t> haveOneAlbedo, std::span<BrdfTable* const> tables,
+                                    Image& albedo);
 
 } // namespace nacre

@@ -41,7 +41,7 @@ struct Surface {
     static constexpr uint8_t kNoMaterial = 255;
 
     NormalMap normals;
-    Image albedo;                // RGB factor, mean 1 over each material's pixels; empty = 1 everywhere
+    Image albedo;                // RGB factor about 1 over each material's pixels; empty = 1 everywhere
     std::vector<uint8_t> labels; // index into materials per pixel, kNoMaterial outside
     std::vector<Material> materials;
     std::vector<std::string> parts; // names of a target's labels; empty where materials name them

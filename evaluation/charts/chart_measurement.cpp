@@ -77,7 +77,7 @@ Surface ChartBaking::bake(const BrdfSetting& setting, double& seconds)
         refitAlbedo(*block, found_.estimate.normals, prepared_.localLights(), segmentation_.labels, tables,
                     options_.bake.threads, surface.albedo);
     }
-    finishAlbedo(capture_, segmentation_.labels, tables, surface.albedo);
+    finishAlbedo(capture_, segmentation_.labels, found_.chosen.haveOneAlbedo, tables, surface.albedo);
     return surface;
 }
 
