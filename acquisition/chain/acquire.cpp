@@ -199,13 +199,12 @@ void judgeSamples(PreparedCapture& prepared, const Capture& capture, const Segme
     MaterialSamples judged = startSamples(capture, lights, segmentation, options.bake);
     judged.counts = result.gathered.counts;
     judged.albedo = std::move(result.gathered.albedo);
-    const std::vector<uint8_t> keepsFactors = takeSlopeTrends(result.estimate.normals, lights, segmentation.labels,
-                                                              result.chosen.haveOneAlbedo, judged.albedo);
+    shareAlbedos(result.estimate.normals, segmentation.labels, result.chosen.haveOneAlbedo, judged.albedo);
     BlockWalk walk(prepared.blocks, clock, progress, "samples");
     while (const Observations* seen = walk.next()) {
         forEachDirect(prepared, result.chosen, *seen, options.normals.threads, [&](const Observations& block) {
-            gatherJudgedSamples(block, result.estimate.normals, lights, segmentation, tables, keepsFactors, options,
-                                judged);
+            gatherJudgedSamples(block, result.estimate.normals, lights, segmentation, tables,
+                                result.chosen.haveOneAlbedo, options, judged);
         });
     }
     result.gathered = std::move(judged);

@@ -1,11 +1,10 @@
 #include "acquisition/chain/material_albedo.h"
 
 #include <algorithm>
-#include <optional>
 
-#include "acquisition/brdf/slope_trend.h"
 #include "acquisition/chain/material_blocks.h"
 #include "acquisition/normals/smooth_fill.h"
+#include "engine/files/measures.h"
 
 namespace nacre {
 
@@ -34,33 +33,28 @@ glm::vec3 finishOne(const Capture& capture, const std::vector<uint8_t>& object, 
 
 } // namespace
 
-std::vector<uint8_t> takeSlopeTrends(const NormalMap& normals, const LocalLights& lights,
-                                     std::span<const uint8_t> labels, std::span<const uint8_t> haveOneAlbedo,
-                                     Image& albedo)
+void shareAlbedos(const NormalMap& normals, std::span<const uint8_t> labels, std::span<const uint8_t> haveOneAlbedo,
+                  Image& albedo)
 {
-    std::vector<uint8_t> taken(haveOneAlbedo.size());
     for (size_t m = 0; m < haveOneAlbedo.size(); ++m) {
-        if (!haveOneAlbedo[m]) {
-            continue;
-        }
-        std::vector<uint32_t> pixels;
-        std::vector<glm::vec3> factors;
-        std::vector<float> cosines;
-        for (uint32_t i = 0; i < labels.size(); ++i) {
-            if (labels[i] == m && normals.confidence[i] > 0) {
+        std::vector<size_t> pixels;
+        for (size_t i = 0; i < labels.size() && haveOneAlbedo[m]; ++i) {
+            const float* factor = &albedo.values[3 * i];
+            if (labels[i] == m && normals.confidence[i] > 0 && factor[0] + factor[1] + factor[2] > 0) {
                 pixels.push_back(i);
-                factors.emplace_back(albedo.values[3 * i], albedo.values[3 * i + 1], albedo.values[3 * i + 2]);
-                cosines.push_back(lights.toLocal(i, normals.normals[i]).z);
             }
         }
-        const std::optional<SlopeTrend> trend = SlopeTrend::of(factors, cosines);
-        taken[m] = trend.has_value();
-        for (size_t k = 0; k < pixels.size() && trend; ++k) {
-            const glm::vec3 factor = factors[k] / trend->at(cosines[k]);
-            std::copy_n(&factor.x, 3, &albedo.values[3 * size_t{pixels[k]}]);
+        for (size_t c = 0; c < 3 && !pixels.empty(); ++c) {
+            std::vector<float> factors;
+            for (const size_t i : pixels) {
+                factors.push_back(albedo.values[3 * i + c]);
+            }
+            const float median = quantile(factors, 0.5);
+            for (const size_t i : pixels) {
+                albedo.values[3 * i + c] = median;
+            }
         }
     }
-    return taken;
 }
 
 void refitAlbedo(const Observations& block, const NormalMap& normals, const LocalLights& lights,

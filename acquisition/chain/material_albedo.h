@@ -9,11 +9,10 @@
 
 namespace nacre {
 
-// Takes out of the factors what goes with the slope (slope_trend.h), of materials whose pixels share an albedo: flat
-// faces in colours of their own have such a trend, too. Answers for each material whether something was taken.
-std::vector<uint8_t> takeSlopeTrends(const NormalMap& normals, const LocalLights& lights,
-                                     std::span<const uint8_t> labels, std::span<const uint8_t> haveOneAlbedo,
-                                     Image& albedo);
+// Gives pixels that share an albedo the median of their factors, channel by channel. What their own ones differ by is
+// noise, light that bounced, or how the material looks from aside, which belongs to its BRDF.
+void shareAlbedos(const NormalMap& normals, std::span<const uint8_t> labels, std::span<const uint8_t> haveOneAlbedo,
+                  Image& albedo);
 
 // refitAlbedo of albedo_factor.h with every pixel's own material; labels are indices into `tables`, null where a
 // material's factors stay as they are.

@@ -57,12 +57,12 @@ void gatherSamples(const Observations& block, const NormalBlock& normals, const 
 
 void gatherJudgedSamples(const Observations& block, const NormalMap& normals, const LocalLights& lights,
                          const Segmentation& segmentation, std::span<BrdfTable* const> tables,
-                         std::span<const uint8_t> keepsFactors, const AcquireOptions& options,
+                         std::span<const uint8_t> haveOneAlbedo, const AcquireOptions& options,
                          MaterialSamples& gathered)
 {
     std::vector<BrdfTable*> fitted(tables.begin(), tables.end());
     for (size_t m = 0; m < fitted.size(); ++m) {
-        fitted[m] = keepsFactors[m] ? nullptr : fitted[m];
+        fitted[m] = haveOneAlbedo[m] ? nullptr : fitted[m];
     }
     refitAlbedo(block, normals, lights, segmentation.labels, fitted, options.samples.threads, gathered.albedo);
     const auto take = [&](size_t material, const BlockPart& part) {

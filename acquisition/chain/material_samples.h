@@ -22,10 +22,10 @@ void gatherSamples(const Observations& block, const NormalBlock& normals, const 
                    const Segmentation& segmentation, const AcquireOptions& options, MaterialSamples& gathered);
 
 // The same by what tables of the samples so far, one a material, say of each observation (gatherJudgedSamples of
-// brdf_samples.h). The block's factors are refitted to them first, but of materials that `keepsFactors` marks.
+// brdf_samples.h). The block's factors are refitted to them first, but of materials whose pixels share an albedo.
 void gatherJudgedSamples(const Observations& block, const NormalMap& normals, const LocalLights& lights,
                          const Segmentation& segmentation, std::span<BrdfTable* const> tables,
-                         std::span<const uint8_t> keepsFactors, const AcquireOptions& options,
+                         std::span<const uint8_t> haveOneAlbedo, const AcquireOptions& options,
                          MaterialSamples& gathered);
 
 } // namespace nacre

@@ -1,6 +1,10 @@
 #include "acquisition/brdf/albedo_factor.h"
 
+#include <algorithm>
+
 #include <gtest/gtest.h>
+
+#include "acquisition/chain/material_albedo.h"
 
 namespace nacre {
 
@@ -51,6 +55,27 @@ TEST(AlbedoFactor, HollowsDoNotColourAMaterialOfOneAlbedo)
     EXPECT_NEAR(taken.g, 0.2f, 1e-6f);
     EXPECT_NEAR(taken.b, 0.1f, 1e-6f);
     EXPECT_NEAR(normaliseAlbedo(false, painted, paintedTable).r, (2 * 0.8f + 7 * 0.4f) / 9, 1e-6f);
+}
+
+// Pixels of one material get one factor; black ones, ones without a normal, and those of another material keep theirs.
+TEST(AlbedoFactor, PixelsThatShareAnAlbedoGetTheMedian)
+{
+    Image albedo = factorsOfHollow();
+    NormalMap normals(10, 1);
+    std::fill(normals.confidence.begin(), normals.confidence.end(), 1.0f);
+    normals.confidence[1] = 0;
+    std::vector<uint8_t> labels(10, 0);
+    labels[2] = 1;
+    shareAlbedos(normals, labels, std::vector<uint8_t>{1, 0}, albedo);
+    EXPECT_EQ(albedo.rgb(0, 0), glm::vec3(0));
+    EXPECT_EQ(albedo.rgb(1, 0), factorsOfHollow().rgb(1, 0));
+    EXPECT_EQ(albedo.rgb(2, 0), factorsOfHollow().rgb(2, 0));
+    albedo = factorsOfHollow();
+    labels[2] = 0;
+    shareAlbedos(normals, labels, std::vector<uint8_t>{1, 0}, albedo);
+    for (int x = 2; x < 10; ++x) {
+        EXPECT_EQ(albedo.rgb(x, 0), glm::vec3(0.4f, 0.2f, 0.1f)) << x;
+    }
 }
 
 } // namespace nacre
