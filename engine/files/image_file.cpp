@@ -71,6 +71,17 @@ bool isWholeInFirst(const OIIO::ImageInput& input)
     return format == "psd" || format == "heif";
 }
 
+// Inks and Lab are no amounts of light, whatever a reader makes of them.
+void requireLight(const fs::path& file, const OIIO::ImageSpec& spec)
+{
+    for (const char* key : {"tiff:ColorSpace", "jpeg:ColorSpace"}) {
+        const std::string space(spec.get_string_attribute(key));
+        if (space.starts_with("CMYK") || space == "YCbCrK" || space.ends_with("LAB")) {
+            throw Error(file, "is in " + space, "RGB or grey");
+        }
+    }
+}
+
 constexpr int64_t kMostPixels = int64_t{1} << 30; // more is damage
 
 // A file's one picture, open where it begins.
@@ -106,6 +117,7 @@ OpenPicture openPicture(const fs::path& file)
     if (!input->seek_subimage(static_cast<int>(chosen->part), 0)) {
         throwUnreadable(file, *input);
     }
+    requireLight(file, input->spec());
     const PicturePart& part = parts[chosen->part];
     if (int64_t{part.width} * part.height > kMostPixels) {
         throw Error(file, fmt::format("says that it is {} x {}", part.width, part.height),

@@ -127,6 +127,37 @@ private:
     void (*handler_)(int);
 };
 
+// A pixel of 8 bits a channel (TIFF 6.0, 1992): photometric interpretation 5 is CMYK, 8 CIE Lab.
+std::string onePixelTiff(int photometric, int channels)
+{
+    std::string bytes = "II*";
+    const auto number = [&](uint32_t value, int count) {
+        for (int i = 0; i < count; ++i) {
+            bytes += static_cast<char>(value >> 8 * i & 0xff);
+        }
+    };
+    number(0, 1), number(8, 4), number(9, 2);
+    const auto entry = [&](uint32_t tag, uint32_t value) {
+        number(tag, 2), number(4, 2), number(1, 4), number(value, 4);
+    };
+    entry(256, 1), entry(257, 1), entry(258, 8), entry(259, 1), entry(262, static_cast<uint32_t>(photometric));
+    entry(273, 8 + 2 + 9 * 12 + 4), entry(277, static_cast<uint32_t>(channels)), entry(278, 1);
+    entry(279, static_cast<uint32_t>(channels));
+    number(0, 4);
+    return bytes + std::string(static_cast<size_t>(channels), 'a');
+}
+
+TEST(ImageFiles, InksAreRefused)
+{
+    const TempFolder folder;
+    writeText(folder / "a.tif", onePixelTiff(2, 3));
+    EXPECT_EQ(readImageHeader(folder / "a.tif").channels, 3);
+    writeText(folder / "a.tif", onePixelTiff(5, 4));
+    expectError([&] { readImageHeader(folder / "a.tif"); }, {"a.tif", "CMYK", "RGB"});
+    writeText(folder / "a.tif", onePixelTiff(8, 3));
+    expectError([&] { readImageHeader(folder / "a.tif"); }, {"a.tif", "LAB", "RGB"});
+}
+
 TEST(ImageFiles, AFullDiskLeavesNothingBehind)
 {
     const TempFolder folder;
