@@ -89,8 +89,8 @@ void takeDeclaredCurve(Capture& capture, std::span<const ReadHeader> headers)
     capture.curve = first.curve;
     capture.curveIsAssumed = !first.curveIsDeclared && first.pixelType == "uint8";
     capture.curveSource = first.curveIsDeclared ? "declared by " + firstName : "assumed: the files declare none";
-    if (first.hasOtherPrimaries) {
-        capture.curveSource += "; its primaries are not those of sRGB, colours stay its own";
+    if (!first.otherColours.empty()) {
+        capture.curveSource += "; " + first.otherColours;
     }
 }
 

@@ -40,9 +40,10 @@ void printRtiWeb(const fs::path& folder)
 void printPicture(const fs::path& file)
 {
     const ImageHeader header = readImageHeader(file);
-    fmt::print("picture      {}: {}x{}, {} channel{}, {} {}\ncurve        {} ({})\n", file.string(), header.width,
+    fmt::print("picture      {}: {}x{}, {} channel{}, {} {}\ncurve        {} ({}{}{})\n", file.string(), header.width,
                header.height, header.channels, header.channels == 1 ? "" : "s", header.format, header.pixelType,
-               header.curve.name, header.curveIsDeclared ? "declared" : "assumed");
+               header.curve.name, header.curveIsDeclared ? "declared" : "assumed",
+               header.otherColours.empty() ? "" : "; ", header.otherColours);
     if (const std::string maker = readImageAttribute(file, "Software"); !maker.empty()) {
         fmt::print("written by   {}\n", maker);
     }

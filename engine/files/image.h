@@ -55,7 +55,7 @@ struct ImageHeader {
     // guess does not count), what is assumed: sRGB for JPEGs of 8 bits, which cameras write so, else linear.
     TransferCurve curve = TransferCurve::linear;
     bool curveIsDeclared = false;
-    bool hasOtherPrimaries = false;        // than Rec. 709: colours are those of the file all the same
+    std::string otherColours;              // for the user, where they are not sRGB's: they are the file's all the same
     std::optional<double> exposureSeconds; // EXIF
     std::optional<double> filmFocalLength; // EXIF: in mm, of the lens that would show as much on 35 mm film
 };

@@ -134,8 +134,11 @@ std::optional<IccColour> profileOf(const OIIO::ImageSpec& spec)
                    : std::nullopt;
 }
 
-// Exif 2.32, ColorSpace: 1 is sRGB. Anything else is not linear either; cameras mean Adobe RGB by it.
+// Exif 2.32, ColorSpace: 1 is sRGB. Anything else is not linear either.
 constexpr int kExifSrgb = 1, kExifNone = 0;
+constexpr const char* kOtherPrimaries = "its primaries are not those of sRGB, colours stay its own";
+constexpr const char* kOtherByExif = "EXIF states a colour space other than sRGB, most often Adobe RGB, whose curve is "
+                                     "nearly this one; colours stay its own";
 
 void declareCurve(ImageHeader& header, const fs::path& file, const OIIO::ImageSpec& spec)
 {
@@ -143,13 +146,17 @@ void declareCurve(ImageHeader& header, const fs::path& file, const OIIO::ImageSp
     header.curveIsDeclared = true;
     if (const std::optional<IccColour> profile = profileOf(spec)) {
         header.curve = profile->curve;
-        header.hasOtherPrimaries = profile->hasOtherPrimaries;
+        header.otherColours = profile->hasOtherPrimaries ? kOtherPrimaries : "";
     } else if (const auto png = header.format == "png" ? pngCurve(file) : std::nullopt) {
         header.curve = *png;
     } else if (exif == kExifSrgb) {
         header.curve = TransferCurve::srgb;
+    } else if (header.format == "jpeg" && statesAdobeRgb(file)) {
+        header.curve = adobeRgbCurve();
+        header.otherColours = kOtherPrimaries;
     } else {
         header.curveIsDeclared = false;
+        header.otherColours = exif != kExifNone ? kOtherByExif : "";
         const bool isDisplayed = header.format == "jpeg" || exif != kExifNone || spec.find_attribute("ICCProfile");
         header.curve = isDisplayed && header.pixelType == "uint8" ? TransferCurve::srgb : TransferCurve::linear;
     }

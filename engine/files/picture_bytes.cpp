@@ -1,5 +1,6 @@
 #include "engine/files/picture_bytes.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <fstream>
 #include <string>
@@ -26,7 +27,7 @@ TransferCurve curveOfGama(uint32_t gama)
     return powerCurve(static_cast<double>(kGamaUnit) / gama);
 }
 
-constexpr int kStartOfImage = 0xd8, kEndOfImage = 0xd9, kTemporary = 0x01;
+constexpr int kStartOfImage = 0xd8, kEndOfImage = 0xd9, kStartOfScan = 0xda, kApp1 = 0xe1, kTemporary = 0x01;
 
 bool isRestart(int marker)
 {
@@ -79,6 +80,25 @@ std::optional<TransferCurve> pngCurve(const fs::path& file)
         }
     }
     return curve;
+}
+
+bool statesAdobeRgb(const fs::path& file)
+{
+    using namespace std::string_literals;
+    // The entry: tag 1, four bytes of text; numbers in either order of bytes.
+    const std::string big = "\0\1\0\2\0\0\0\4R03\0"s, little = "\1\0\2\0\4\0\0\0R03\0"s;
+    std::ifstream stream(file, std::ios::binary);
+    stream.seekg(2); // start of image
+    std::streambuf& bytes = *stream.rdbuf();
+    for (int marker = nextMarker(bytes); marker >= 0 && marker != kStartOfScan; marker = nextMarker(bytes)) {
+        const int high = bytes.sbumpc(), low = bytes.sbumpc();
+        std::string segment(static_cast<size_t>(std::max((high << 8 | low) - 2, 0)), '\0'); // a length counts itself
+        stream.read(segment.data(), static_cast<std::streamsize>(segment.size()));
+        if (marker == kApp1 && segment.starts_with("Exif")) {
+            return segment.find(big) != std::string::npos || segment.find(little) != std::string::npos;
+        }
+    }
+    return false;
 }
 
 bool isCompleteJpeg(const fs::path& file)

@@ -49,6 +49,12 @@ TransferCurve powerCurve(double exponent)
                           sampledCurve([=](double x) { return std::pow(x, exponent); }));
 }
 
+TransferCurve adobeRgbCurve()
+{
+    constexpr double kExponent = 563.0 / 256; // Adobe RGB (1998) Color Image Encoding, 2005, 4.3.4.2
+    return tabulatedCurve("Adobe RGB's, power 2.2", sampledCurve([](double x) { return std::pow(x, kExponent); }));
+}
+
 TransferCurve tabulatedCurve(std::string name, std::vector<float> table)
 {
     if (isNear(table, [](float v) { return v; })) {

@@ -23,6 +23,8 @@ inline const TransferCurve TransferCurve::linear{"linear", {}}, TransferCurve::s
 // Light is the number's power; sRGB where both hardly differ (2.2), linear for 1.
 TransferCurve powerCurve(double exponent);
 
+TransferCurve adobeRgbCurve();
+
 // Its values at equal steps from 0 to 1, so fine that lines between them err by 2e-8 for a power.
 std::vector<float> sampledCurve(const std::function<double(double)>& curve);
 

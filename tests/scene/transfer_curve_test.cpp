@@ -140,14 +140,29 @@ TEST(ImageFiles, JpegsThatDeclareNothingAreTakenAsSrgb)
     EXPECT_EQ(readImageHeader(folder / "bare.jpg").curve, TransferCurve::srgb);
     EXPECT_NEAR(loadPhotograph(folder / "bare.jpg", readImageHeader(folder / "bare.jpg").curve).values[0],
                 linearFromSrgb(0.5f), 0.01f);
-    // EXIF: ColorSpace 65535.
+    // EXIF: ColorSpace 65535, which cameras say of Adobe RGB with R03, others of anything.
     using namespace std::string_literals;
     const std::string exif = "Exif\0\0II*\0\x08\0\0\0\x01\0\x69\x87\x04\0\x01\0\0\0\x1a\0\0\0\0\0\0\0"s
                              "\x02\0\x01\xa0\x03\0\x01\0\0\0\xff\xff\0\0\x05\xa0\x04\0\x01\0\0\0\x38\0\0\0\0\0\0\0"s
                              "\x01\0\x01\0\x02\0\x04\0\0\0R03\0\0\0\0\0"s;
-    writeText(folder / "adobe.jpg", bytes.substr(0, 2) + "\xff\xe1" +
-                                        number(static_cast<uint32_t>(exif.size() + 2), 2) + exif + bytes.substr(2));
-    EXPECT_EQ(readImageHeader(folder / "adobe.jpg").curve, TransferCurve::srgb);
+    const auto headerWith = [&](const std::string& segment) {
+        writeText(folder / "a.jpg", bytes.substr(0, 2) + "\xff\xe1" +
+                                        number(static_cast<uint32_t>(segment.size() + 2), 2) + segment +
+                                        bytes.substr(2));
+        return readImageHeader(folder / "a.jpg");
+    };
+    const ImageHeader adobe = headerWith(exif);
+    EXPECT_TRUE(adobe.curveIsDeclared);
+    float half = 0.5f;
+    decodeCurve({&half, 1}, adobe.curve);
+    EXPECT_NEAR(half, std::pow(0.5, 563.0 / 256), 1e-6); // Adobe RGB (1998), 4.3.4.2
+    EXPECT_NE(adobe.otherColours, "");
+    std::string unnamed = exif;
+    unnamed[unnamed.find("R03")] = '?';
+    EXPECT_FALSE(headerWith(unnamed).curveIsDeclared);
+    EXPECT_EQ(headerWith(unnamed).curve, TransferCurve::srgb);
+    EXPECT_NE(headerWith(unnamed).otherColours, "");
+    EXPECT_EQ(readImageHeader(folder / "bare.jpg").otherColours, "");
 }
 
 } // namespace
