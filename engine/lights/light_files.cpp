@@ -183,6 +183,13 @@ Light lightOf(const fs::path& file, const LpLine& line, const std::optional<LpLi
     return {normalized(line.vector), irradiance};
 }
 
+std::string_view unquoted(std::string_view name)
+{
+    const bool isQuoted =
+        name.size() > 2 && (name.front() == '"' || name.front() == '\'') && name.back() == name.front();
+    return isQuoted ? name.substr(1, name.size() - 2) : name;
+}
+
 LightFile lightsOfLp(const fs::path& file, const std::vector<std::string>& lines)
 {
     if (lines.empty()) {
@@ -199,7 +206,7 @@ LightFile lightsOfLp(const fs::path& file, const std::vector<std::string>& lines
             throw Error(file, fmt::format("\"{}\" is no photograph with its light", lines[i]), "\"file x y z\"");
         }
         result.lights.push_back(lightOf(file, *line, parseLpLine(lines[counted ? 1 : 0])));
-        result.photographs.emplace_back(line->photograph);
+        result.photographs.emplace_back(unquoted(line->photograph));
         result.vectors.push_back(line->vector);
         result.irradianceGiven = line->irradiance.has_value();
     }

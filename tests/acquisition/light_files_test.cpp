@@ -160,6 +160,12 @@ TEST_F(LightFiles, LpNamesMayHoldSpacesAndNumbers)
     EXPECT_FALSE(lights.irradianceGiven);
 }
 
+TEST_F(LightFiles, LpNamesMayBeQuoted)
+{
+    const LightFile lights = loadLpFile(write("a.lp", "2\n\"my coin 1.jpg\" 0 0 2\n'b c.png' 3 0 4\n"));
+    EXPECT_EQ(lights.photographs, (std::vector<std::string>{"my coin 1.jpg", "b c.png"}));
+}
+
 TEST_F(LightFiles, LpWithoutCountIsUnderstood)
 {
     const LightFile lights = loadLpFile(write("a.lp", "a.png 0 0 1\nb c.png 0 3 4\n"));
