@@ -260,6 +260,9 @@ double requireSpanningLights(const std::vector<Light>& lights, const std::filesy
         throw Error(source, fmt::format("has {} usable light(s)", lights.size()),
                     "at least three lights that do not lie in one plane");
     }
+    if (std::all_of(lights.begin(), lights.end(), [](const Light& light) { return light.direction.z < 0; })) {
+        throw Error(source, "has all its lights behind the object: their z is below 0", "z towards the camera");
+    }
     const double condition = conditionOf(lights);
     if (!(condition < kWorstLightCondition)) {
         throw Error(source,

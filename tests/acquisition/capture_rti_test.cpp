@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "acquisition/capture/capture.h"
+#include "acquisition/lights/lights.h"
 #include "tests/support/expect_error.h"
 #include "tests/support/temp_folder.h"
 #include "tests/support/write_capture.h"
@@ -298,6 +299,14 @@ TEST_F(CaptureRti, AListAboveOfOtherPhotographsDoesNotCount)
 {
     writeUwFolder(folder_ / "cat", "cat", 3);
     EXPECT_EQ(loadCapture(folder_ / "cat").layout, CaptureLayout::uw);
+}
+
+TEST(CaptureLights, AllBehindTheObjectAreRefused)
+{
+    std::vector<Light> lights = {{{0.6f, 0, -0.8f}}, {{0, 0.6f, -0.8f}}, {{-0.6f, 0, -0.8f}}, {{0, 0, -1}}};
+    expectError([&] { requireSpanningLights(lights, "x.lp"); }, {"x.lp", "behind"});
+    lights[0].direction.z = 0.8f; // one of them may be
+    EXPECT_GT(requireSpanningLights(lights, "x.lp"), 0);
 }
 
 TEST_F(CaptureRti, AMaskIsFoundByItsName)
