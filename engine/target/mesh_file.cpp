@@ -155,12 +155,21 @@ void takeNormalMapsUvs(const fs::path& file, const aiScene& scene, aiMesh& mesh)
     int set = 0;
     aiUVTransform transform;
     const aiMaterial& material = *scene.mMaterials[mesh.mMaterialIndex];
-    if (material.Get(AI_MATKEY_UVWSRC(aiTextureType_NORMALS, 0), set) == aiReturn_SUCCESS && set > 0 &&
-        mesh.HasTextureCoords(static_cast<unsigned>(set))) {
+    if (material.Get(AI_MATKEY_UVWSRC(aiTextureType_NORMALS, 0), set) == aiReturn_SUCCESS && set > 0) {
+        if (set >= AI_MAX_NUMBER_OF_TEXTURECOORDS || !mesh.HasTextureCoords(static_cast<unsigned>(set))) {
+            throw Error(file, fmt::format("lays its normal map into texture coordinates {}, which it lacks", set),
+                        "a set of coordinates that is there");
+        }
         std::swap(mesh.mTextureCoords[0], mesh.mTextureCoords[set]);
     }
     if (mesh.HasTextureCoords(0) &&
         material.Get(AI_MATKEY_UVTRANSFORM(aiTextureType_NORMALS, 0), transform) == aiReturn_SUCCESS) {
+        moveUvs(file, transform, mesh);
+    }
+    if (mesh.HasTextureCoords(0) && lowerExtension(file) == ".obj") {
+        const UvPlacement placed = mtlPlacement(file, material.GetName().C_Str());
+        transform.mScaling = {placed.scale[0], placed.scale[1]};
+        transform.mTranslation = {placed.offset[0], placed.offset[1]};
         moveUvs(file, transform, mesh);
     }
 }

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <fstream>
+#include <iterator>
+#include <sstream>
 #include <string_view>
 
 #include <fmt/format.h>
@@ -72,7 +75,76 @@ bool isKnown(std::string_view extension)
            std::find(kKnown.begin(), kKnown.end(), extension) != kKnown.end();
 }
 
+// The first set by default (glTF 2.0, 5.30.2).
+int setOf(const nlohmann::json& texture, int otherwise)
+{
+    return texture.is_object() && texture.contains("texCoord") && texture["texCoord"].is_number_integer()
+               ? texture["texCoord"].get<int>()
+               : otherwise;
+}
+
+bool movesSet(const nlohmann::json& material)
+{
+    static const nlohmann::json::json_pointer kTexture("/normalTexture"),
+        kTransform("/normalTexture/extensions/KHR_texture_transform");
+    if (!material.is_object() || !material.contains(kTransform)) {
+        return false;
+    }
+    const int set = setOf(material[kTexture], 0);
+    return setOf(material[kTransform], set) != set;
+}
+
+bool namesNormalMap(std::string_view key)
+{
+    const std::string lower = lowerCase(std::string(key));
+    return lower == "norm" || lower == "map_kn" || lower == "map_bump" || lower == "bump";
+}
+
+// Two numbers after the option; as they were where it is not there.
+void takeOption(std::string_view option, const std::vector<std::string>& words, std::array<float, 2>& values)
+{
+    const auto at = std::find(words.begin(), words.end(), option);
+    for (size_t k = 0; k < 2 && at != words.end() && std::distance(at, words.end()) > static_cast<long>(k) + 1; ++k) {
+        values[k] = static_cast<float>(parseNumber(at[static_cast<long>(k) + 1]).value_or(values[k]));
+    }
+}
+
+std::vector<std::string> wordsOf(const std::string& line)
+{
+    std::istringstream stream(line);
+    return {std::istream_iterator<std::string>(stream), {}};
+}
+
+// Of a material in one MTL file.
+void takePlacement(const fs::path& file, const std::string& material, UvPlacement& placement)
+{
+    std::ifstream stream(file);
+    bool isNamed = false;
+    for (std::string line; std::getline(stream, line);) {
+        const std::vector<std::string> words = wordsOf(line);
+        if (words.size() > 1 && words[0] == "newmtl") {
+            isNamed = words[1] == material;
+        } else if (isNamed && words.size() > 1 && namesNormalMap(words[0])) {
+            takeOption("-s", words, placement.scale);
+            takeOption("-o", words, placement.offset);
+        }
+    }
+}
+
 } // namespace
+
+UvPlacement mtlPlacement(const fs::path& obj, const std::string& material)
+{
+    UvPlacement placement;
+    std::ifstream stream(obj);
+    for (std::string line; std::getline(stream, line);) {
+        if (line.starts_with("mtllib ")) {
+            const size_t last = line.find_last_not_of(" \r");
+            takePlacement(textureFile(obj, line.substr(7, last - 6)), material, placement);
+        }
+    }
+    return placement;
+}
 
 fs::path textureFile(const fs::path& mesh, const std::string& name)
 {
@@ -95,6 +167,11 @@ fs::path textureFile(const fs::path& mesh, const std::string& name)
 void requireKnownExtensions(const fs::path& mesh)
 {
     const nlohmann::json json = nlohmann::json::parse(gltfText(mesh), nullptr, false);
+    if (json.is_object() && json.contains("materials") && json["materials"].is_array() &&
+        std::any_of(json["materials"].begin(), json["materials"].end(), movesSet)) {
+        throw Error(mesh, "takes its normal map's coordinates from another set by KHR_texture_transform",
+                    "the set in the texture itself (texCoord)");
+    }
     if (!json.is_object() || !json.contains("extensionsRequired") || !json["extensionsRequired"].is_array()) {
         return;
     }

@@ -327,6 +327,23 @@ TEST_F(MeshMapTest, MtlNamesNormalMapsInSeveralWays)
     expectError([&] { leanOfMtl("map_Kn missing.png"); }, {"missing.png", "does not exist"});
 }
 
+TEST_F(MeshMapTest, MtlScalesAndMovesNormalMaps)
+{
+    const auto uvsOf = [&](const std::string& line) {
+        EXPECT_GT(leanOfMtl(line), 0.5);
+        return loadMesh(folder_ / "m.obj", {}).uvs;
+    };
+    const std::vector<glm::vec2> plain = uvsOf("norm normal.png");
+    for (const char* line :
+         {"norm -s 2 3 1 -o 0.25 0.5 0 normal.png", "map_Bump -bm 1 -o 0.25 0.5 0 -s 2 3 1 normal.png"}) {
+        const std::vector<glm::vec2> moved = uvsOf(line);
+        for (size_t i = 0; i < plain.size(); ++i) {
+            EXPECT_NEAR(moved[i].x, 0.25 + 2 * plain[i].x, 1e-6) << line;
+            EXPECT_NEAR(moved[i].y, 0.5 + 3 * plain[i].y, 1e-6) << line;
+        }
+    }
+}
+
 TEST_F(MeshMapTest, GltfScaleSetAndTransformCount)
 {
     EXPECT_NEAR(lean(gltf(R"({"index": 0})")), 0.6, 0.02);
@@ -345,6 +362,15 @@ TEST_F(MeshMapTest, GltfScaleSetAndTransformCount)
         EXPECT_NEAR(mesh.uvs[i].x, 0.25 + 0.5 * plain.uvs[i].x, 1e-6);
         EXPECT_NEAR(1 - mesh.uvs[i].y, 0.125 + 0.25 * (1 - plain.uvs[i].y), 1e-6); // glTF counts v down
     }
+}
+
+TEST_F(MeshMapTest, SetsOfCoordinatesThatAreNotReadAreNamed)
+{
+    expectError([&] { lean(gltf(R"({"index": 0, "texCoord": 2})")); }, {"m.gltf", "coordinates 2"});
+    expectError([&] { lean(gltf(R"({"index": 0, "extensions": {"KHR_texture_transform": {"texCoord": 1}}})")); },
+                {"m.gltf", "another set"});
+    EXPECT_GT(lean(gltf(R"({"index": 0, "texCoord": 1, "extensions": {"KHR_texture_transform": {"texCoord": 1}}})")),
+              0.5);
 }
 
 TEST_F(MeshMapTest, RequiredExtensionsThatAreNotKnownAreNamed)
