@@ -113,7 +113,15 @@ void requireSummary(const fs::path& file, bool replace)
 
 void writeSummaryText(const fs::path& file, const std::string& text)
 {
-    writeTextFile(isStandardOutput(file) ? fs::path("/dev/fd") / std::to_string(summaryDescriptor) : file, text);
+    if (!isStandardOutput(file)) {
+        writeTextFile(file, text);
+        return;
+    }
+    try {
+        writeTextFile(fs::path("/dev/fd") / std::to_string(summaryDescriptor), text);
+    } catch (const Error&) { // which names the descriptor
+        throw Error("standard output", "cannot be written", "a file or pipe that takes what is printed");
+    }
 }
 
 } // namespace nacre

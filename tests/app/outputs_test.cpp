@@ -6,6 +6,7 @@
 #include <map>
 #include <thread>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -184,6 +185,13 @@ TEST(StandardOutput, ThatIsFullIsAnError)
 {
     const ProgramRun run = runProgram("/bin/sh", {"-c", std::string(NACRE_EXECUTABLE) + " --help > /dev/full"});
     expectOneLine(run, 3, {"standard output", "No space left"});
+    const TempFolder folder;
+    const std::string picture = (folder / "a.png").string();
+    saveImage(picture, Image(8, 8, 3, 0.5f), PixelType::uint8);
+    const ProgramRun summary = runProgram(
+        "/bin/sh", {"-c", fmt::format("{0} compare {1} {1} --json - > /dev/full", NACRE_EXECUTABLE, picture)});
+    EXPECT_EQ(summary.exitCode, 3);
+    EXPECT_NE(summary.err.find("standard output: cannot be written"), std::string::npos) << summary.err;
 }
 
 bool holdsPart(const fs::path& folder)
