@@ -101,10 +101,11 @@ struct Capture {
     std::filesystem::path labelsFile;   // of the files' size; empty where there is none
     std::filesystem::path smoothFile;   // the same
     // In widths of the object, which is the longer side of its mask's bounding box, from the middle of that.
-    std::optional<double> lightDistance; // of all lights; infinite: they are distant; none: not known
-    std::vector<glm::vec3> lightPlaces;  // one per photograph, camera frame; empty where they are not known
-    std::optional<double> fieldOfView;   // across the files' width, degrees; none: the camera is orthographic
-    std::optional<double> viewByExif;    // the same as the files' EXIF has it; stated, not used
+    std::optional<double> lightDistance;       // of all lights; infinite: they are distant; none: not known
+    std::vector<glm::vec3> lightPlaces;        // one per photograph, camera frame; empty where they are not known
+    std::optional<double> fieldOfView;         // across the files' width, degrees; none: the camera is orthographic
+    std::optional<double> pixelsPerMillimetre; // of the files, in the object's plane
+    std::optional<double> viewByExif;          // the same as the files' EXIF has it; stated, not used
 };
 
 // An offset to subtract, on the scale of decoded values in [0, 1], or to estimate.
@@ -129,8 +130,9 @@ struct CaptureOptions {
     std::optional<double> lightDistance; // in widths of the object; infinite: distant, whatever the photographs tell
     std::optional<double> objectWidth;   // in the unit in which a file places the lights
     std::optional<double> fieldOfView;   // degrees across the files' width
-    std::filesystem::path rig;           // lights from another file, as loadLightFile reads them
-    bool needsLights = false;            // a capture that says nothing of its lights is refused
+    std::optional<double> pixelsPerMillimetre;
+    std::filesystem::path rig; // lights from another file, as loadLightFile reads them
+    bool needsLights = false;  // a capture that says nothing of its lights is refused
 };
 
 // Finds out the layout (docs/formats.md) and checks all that can be checked without decoding every photograph:

@@ -253,6 +253,9 @@ void readSizes(const JsonNode& root, LayoutContents& contents)
     if (const auto scale = root.find("scale")) {
         capture.window.box = boxOf(*scale);
     }
+    if (const auto scale = root.find("pixelsPerMillimetre")) {
+        capture.pixelsPerMillimetre = positiveNumber(*scale, "a positive number");
+    }
     if (root.has("lightDistance") && !root.has("objectWidth")) {
         throw root.error("has \"lightDistance\" alone", "\"objectWidth\" beside it, in one unit of length");
     }
@@ -289,10 +292,13 @@ std::optional<LayoutContents> readJsonLayout(const fs::path& file)
         return std::nullopt;
     }
     const JsonNode root = JsonNode::loadVersioned(file, "nacre capture", kCaptureVersion);
-    root.allowKeys({"format",        "version",       "name",        "transfer",    "mask",
-                    "truthNormals",  "lights",        "irradiances", "photographs", "mirrorSphere",
-                    "diffuseSphere", "ambient",       "offset",      "crop",        "scale",
-                    "labels",        "lightDistance", "objectWidth", "fieldOfView", "smooth"});
+    root.allowKeys({"format",       "version",       "name",
+                    "transfer",     "mask",          "truthNormals",
+                    "lights",       "irradiances",   "photographs",
+                    "mirrorSphere", "diffuseSphere", "ambient",
+                    "offset",       "crop",          "scale",
+                    "labels",       "lightDistance", "objectWidth",
+                    "fieldOfView",  "smooth",        "pixelsPerMillimetre"});
     LayoutContents contents;
     Capture& capture = contents.capture;
     capture.layout = CaptureLayout::json;

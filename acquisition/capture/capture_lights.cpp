@@ -226,6 +226,8 @@ void placeLights(LayoutContents& contents, const CaptureOptions& options)
     for (Light& light : capture.lights) { // their own count where nobody says else
         light.distance = distance ? std::numeric_limits<float>::infinity() : light.distance;
     }
+    capture.pixelsPerMillimetre =
+        options.pixelsPerMillimetre ? options.pixelsPerMillimetre : capture.pixelsPerMillimetre;
     capture.fieldOfView = options.fieldOfView ? options.fieldOfView : capture.fieldOfView;
     if (!distance && !width && !areDirections(vectors)) {
         const char* unused = "their lengths left out: places need --object-width in their unit";

@@ -121,6 +121,9 @@ Surface surfaceOf(const Capture& capture, const PreparedCapture& prepared, Norma
     surface.transfer = capture.curve == TransferCurve::srgb     ? "srgb"
                        : capture.curve == TransferCurve::linear ? "linear"
                                                                 : "";
+    if (capture.pixelsPerMillimetre) {
+        surface.pixelsPerMillimetre = *capture.pixelsPerMillimetre / capture.window.box;
+    }
     surface.scale = rig.absolute ? RadianceScale::absolute : RadianceScale::relative;
     for (size_t i = 0; i < lights.size(); ++i) {
         surface.lights.push_back({capture.photographs[prepared.given[i]].name, lights[i]});

@@ -1,6 +1,7 @@
 #include "app/arguments/capture_arguments.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include <fmt/format.h>
@@ -76,6 +77,14 @@ void requireView(const std::optional<double>& degrees)
     if (degrees && !(*degrees > 0 && *degrees <= kWidestView)) {
         throw Error("", fmt::format("--field-of-view {:g} is not possible", *degrees),
                     fmt::format("degrees above 0, {:g} at most", kWidestView), Error::kUsage);
+    }
+}
+
+void requireResolution(const std::optional<double>& pixels)
+{
+    if (pixels && !(*pixels > 0 && std::isfinite(*pixels))) {
+        throw Error("", fmt::format("--pixels-per-mm {:g} is not possible", *pixels), "a number above 0",
+                    Error::kUsage);
     }
 }
 
@@ -192,6 +201,11 @@ void CalibrationArguments::addTo(CLI::App& command)
     command.add_option("--shrink", shrink, "Boxes of so many pixels squared become one, 1 to 4")
         ->option_text("N [1]")
         ->group(kPhotographs);
+    command
+        .add_option("--pixels-per-mm", capture.pixelsPerMillimetre,
+                    "Pixels of the photographs a millimetre of the object, for `render --scale-bar`")
+        ->option_text("NUMBER")
+        ->group(kPhotographs);
     command.add_option("--circle", circle, "Outline of the mirror sphere, in place of its mask, in pixels")
         ->delimiter(',')
         ->option_text("X,Y,R")
@@ -272,6 +286,7 @@ Capture CalibrationArguments::load()
             "one of them: a width in the unit of the lights' places, or their distance in widths", Error::kUsage);
     }
     requireView(capture.fieldOfView);
+    requireResolution(capture.pixelsPerMillimetre);
     capture.circle = circleOf(circle);
     capture.window = windowOf(crop, shrink);
     if (!mirrorSpheres.empty()) {

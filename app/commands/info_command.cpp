@@ -41,6 +41,10 @@ void printSurface(const std::filesystem::path& folder)
                100.0 * static_cast<double>(withNormal) / static_cast<double>(confidence.size()),
                surface.albedo.values.empty() ? "1 everywhere" : "per pixel",
                surface.scale == RadianceScale::absolute ? "absolute (1/sr)" : "relative");
+    if (const auto& pixels = surface.pixelsPerMillimetre) {
+        fmt::print("size         {:.4g} x {:.4g} mm, {:.4g} pixels a millimetre\n", surface.normals.width / *pixels,
+                   surface.normals.height / *pixels, *pixels);
+    }
     for (size_t i = 0; i < surface.materials.size(); ++i) {
         const Material& material = surface.materials[i];
         const auto pixels = std::count(surface.labels.begin(), surface.labels.end(), i);

@@ -22,6 +22,7 @@ struct RenderArguments {
     SceneOptions scene;
     std::filesystem::path output;
     float scale = 1;
+    bool hasScaleBar = false;
     bool force = false;
     bool quiet = false;
 };
@@ -109,7 +110,8 @@ std::function<void(int)> turningObject(const SceneDescription& scene, const Scen
 void runRender(const RenderArguments& arguments)
 {
     const SceneDescription description = arguments.scene.description();
-    const RenderOutput output = checkedOutput(description, arguments.output, arguments.scale, arguments.force);
+    const RenderOutput output =
+        checkedOutput(description, arguments.output, arguments.scale, arguments.hasScaleBar, arguments.force);
     requireConsistent(description);
     const Context context(arguments.scene.device);
     const SceneInputs inputs = sceneInputs(arguments.scene.fits);
@@ -188,6 +190,10 @@ void addRenderCommand(CLI::App& app)
         ->add_option("--scale", arguments->scale,
                      "Scale of the picture after --size, up to 64: above 1 normals are filtered before they are "
                      "shaded, below 1 what is shaded is averaged (default: 1)")
+        ->group("Picture");
+    command
+        ->add_flag("--scale-bar", arguments->hasScaleBar,
+                   "Bar of a round length in millimetres, for surfaces acquired with --pixels-per-mm")
         ->group("Picture");
     command
         ->add_option("-o,--output", arguments->output,

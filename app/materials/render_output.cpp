@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "app/arguments/destinations.h"
+#include "app/materials/scale_bar.h"
 #include "engine/files/animation_file.h"
 #include "engine/files/error.h"
 #include "engine/files/text_files.h"
@@ -75,6 +76,10 @@ void checkLook(const RenderOutput& output)
     if (output.isRadiance && output.show != Show::picture) {
         throw Error(output.file, "is radiance, which has no false colours", "--show with .png or .webp", Error::kUsage);
     }
+    if (output.isRadiance && output.hasScaleBar) {
+        throw Error(output.file, "is radiance, in which nothing is drawn", "--scale-bar with .png or .webp",
+                    Error::kUsage);
+    }
     if (output.isRadiance && output.residual == ResidualUse::alone) {
         throw Error(output.file, "is radiance, which is not drawn about middle grey",
                     "--layer alone with .png or .webp", Error::kUsage);
@@ -83,7 +88,8 @@ void checkLook(const RenderOutput& output)
 
 } // namespace
 
-RenderOutput checkedOutput(const SceneDescription& scene, const fs::path& file, float scale, bool force)
+RenderOutput checkedOutput(const SceneDescription& scene, const fs::path& file, float scale, bool hasScaleBar,
+                           bool force)
 {
     const std::string extension = lowerExtension(file);
     if (extension != ".png" && extension != ".exr" && extension != kAnimation) {
@@ -108,6 +114,7 @@ RenderOutput checkedOutput(const SceneDescription& scene, const fs::path& file, 
                               .show = scene.show,
                               .residual = scene.residual,
                               .scale = scale,
+                              .hasScaleBar = hasScaleBar,
                               .isRadiance = extension == ".exr",
                               .isAnimation = extension == kAnimation};
     checkLook(output);
@@ -130,6 +137,10 @@ RenderedOutput renderFrames(Renderer& renderer, const RenderOutput& output, cons
     if (output.isAnimation) {
         animation.emplace(output.file, zoom.size.x, zoom.size.y);
     }
+    if (output.hasScaleBar && !scene.surface.pixelsPerMillimetre) {
+        throw Error("", "--scale-bar needs a surface whose pixels have a size",
+                    "a surface acquired with --pixels-per-mm, not its material on another", Error::kUsage);
+    }
     RenderedOutput rendered{.first = fileOfFrame(output.file, 0, output.frames)};
     renderer.setPath(output.path);
     renderer.setShow(output.show);
@@ -145,12 +156,18 @@ RenderedOutput renderFrames(Renderer& renderer, const RenderOutput& output, cons
             turnTo(frame);
         }
         const fs::path file = fileOfFrame(output.file, frame, output.frames);
-        if (animation) {
-            animation->add(renderer.picture());
-        } else if (output.isRadiance) {
+        if (output.isRadiance) {
             saveImage(file, renderer.radiance(), PixelType::float32, attributes);
+            continue;
+        }
+        Image picture = renderer.picture();
+        if (output.hasScaleBar) {
+            drawScaleBar(picture, output.scale * *scene.surface.pixelsPerMillimetre);
+        }
+        if (animation) {
+            animation->add(picture);
         } else {
-            saveImage(file, renderer.picture(), PixelType::uint8, attributes);
+            saveImage(file, picture, PixelType::uint8, attributes);
         }
     }
     if (animation) {

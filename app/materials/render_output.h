@@ -20,6 +20,7 @@ struct RenderOutput {
     Show show = Show::picture;
     ResidualUse residual = ResidualUse::on;
     float scale = 1; // of pixels, see Renderer::setZoom
+    bool hasScaleBar = false;
     bool isRadiance = false;
     bool isAnimation = false;
 
@@ -28,7 +29,8 @@ struct RenderOutput {
 };
 
 // Throws Error (usage) where options contradict each other, Error (data) where the output cannot be written.
-RenderOutput checkedOutput(const SceneDescription& scene, const std::filesystem::path& file, float scale, bool force);
+RenderOutput checkedOutput(const SceneDescription& scene, const std::filesystem::path& file, float scale,
+                           bool hasScaleBar, bool force);
 
 struct RenderedOutput {
     std::filesystem::path first; // file

@@ -61,6 +61,9 @@ Surface fittedSurface(const Surface& surface, int width, int height)
     // Heights are in pixels, which shrink and grow with the picture.
     const float scale = std::min(static_cast<float>(width) / static_cast<float>(surface.normals.width),
                                  static_cast<float>(height) / static_cast<float>(surface.normals.height));
+    if (surface.pixelsPerMillimetre) {
+        fitted.pixelsPerMillimetre = scale * *surface.pixelsPerMillimetre;
+    }
     const std::vector<int64_t> from = fittedPixels(surface.normals.width, surface.normals.height, width, height);
     fitted.horizon = pickedHorizon(surface.horizon, from, width, height);
     fitted.residual = pickedResidual(surface.residual, from, width, height);

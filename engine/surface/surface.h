@@ -57,6 +57,7 @@ struct Surface {
     std::vector<CapturedLight> lights;
     std::string transfer; // of the photographs: linear or srgb; empty: not known, or as they declare it themselves
     RadianceScale scale = RadianceScale::relative;
+    std::optional<double> pixelsPerMillimetre{}; // of the object, which is as large as it was photographed
     // dB of the photographs, each predicted from the others, mean over them (acquire); empty: not known.
     std::optional<double> leftOutDecibels{};
 };

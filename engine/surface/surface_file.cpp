@@ -104,6 +104,9 @@ nlohmann::json descriptionOf(const Surface& surface)
     if (surface.castsShadows) {
         json["shadows"] = true;
     }
+    if (surface.pixelsPerMillimetre) {
+        json["pixelsPerMillimetre"] = *surface.pixelsPerMillimetre;
+    }
     if (surface.leftOutDecibels) {
         json["leftOutDecibels"] = *surface.leftOutDecibels;
     }
@@ -325,6 +328,12 @@ Surface surfaceOf(const JsonNode& root)
         surface.castsShadows = shadows->truth();
         if (surface.castsShadows && surface.height.values.empty()) {
             throw shadows->error("is true, but there are no heights to cast any", "\"heights\", or no shadows");
+        }
+    }
+    if (const auto pixels = root.find("pixelsPerMillimetre")) {
+        surface.pixelsPerMillimetre = pixels->number();
+        if (!(*surface.pixelsPerMillimetre > 0)) {
+            throw pixels->error(fmt::format("is {:g}", *surface.pixelsPerMillimetre), "a positive number");
         }
     }
     if (const auto decibels = root.find("leftOutDecibels")) {

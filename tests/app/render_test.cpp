@@ -1,15 +1,18 @@
 // nacre render and nacre info as their users start them.
 #include <algorithm>
+#include <cmath>
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
+#include "app/materials/scale_bar.h"
 #include "engine/files/measures.h"
 #include "engine/scene/reference.h"
 #include "tests/gpu/frame_match.h"
 #include "tests/gpu/scenes.h"
 #include "tests/support/expect_one_line.h"
 #include "tests/support/run_nacre.h"
+#include "tests/support/small_capture.h"
 
 namespace nacre::test {
 namespace {
@@ -285,6 +288,59 @@ TEST_F(RenderTest, PathsAgreeAndSayWhatTheyAre)
     expectRefusal(render("new.png", {"--view", "0,0,-1"}), 2, "z above 0");
     expectRefusal(render("new.png", {"--light", "soft:0:0,0,1"}), 2, "above 0");
     expectRefusal(render("new.png", {"--environment", path("nothing.exr")}), 3, "does not exist");
+}
+
+// White pixels in a row of the picture from x on.
+int whiteFrom(const Image& picture, int x, int y)
+{
+    int end = x;
+    while (end < picture.width && picture.rgb(end, y) == glm::vec3(1)) {
+        ++end;
+    }
+    return end - x;
+}
+
+TEST_F(RenderTest, AScaleBarIsAsLongAsItSays)
+{
+    scene_.surface.pixelsPerMillimetre = 3;
+    saveSurface(folder_ / "s.nacre", scene_.surface, true);
+    ASSERT_EQ(render("bar.png", {"--scale", "4", "--scale-bar"}).exitCode, 0);
+    ASSERT_EQ(render("bare.png", {"--scale", "4"}).exitCode, 0);
+    const Image with = loadImage(path("bar.png")), without = loadImage(path("bare.png"));
+    int longest = 0;
+    for (int y = with.height / 2; y < with.height; ++y) {
+        for (int x = 0; x < with.width; ++x) {
+            const bool isPlate = x < with.width / 2 && y > with.height * 2 / 3;
+            EXPECT_TRUE(isPlate || with.rgb(x, y) == without.rgb(x, y)) << x << ", " << y;
+            longest = std::max(longest, whiteFrom(with, x, y));
+        }
+    }
+    EXPECT_EQ(longest, 60); // 5 mm at 3 pixels, 4 times
+    expectRefusal(render("new.exr", {"--scale-bar"}), 2, "radiance");
+    expectRefusal(render("new.png", {"--scale-bar"}), 2, "60x40");
+    scene_.surface.pixelsPerMillimetre.reset();
+    saveSurface(folder_ / "s.nacre", scene_.surface, true);
+    expectRefusal(render("new.png", {"--scale", "4", "--scale-bar"}), 2, "--pixels-per-mm");
+    for (const double pixels : {0.0013, 0.7, 4.0, 4.01, 36.4, 2500.0}) {
+        const double millimetres = scaleBarLength(1000, pixels),
+                     decade = std::pow(10, std::floor(std::log10(millimetres) + 1e-9));
+        EXPECT_LE(millimetres * pixels, 250 + 1e-9);
+        EXPECT_GT(millimetres * pixels, 250 / 2.5 - 1e-9);
+        const double first = millimetres / decade;
+        EXPECT_LT(std::min({std::abs(first - 1), std::abs(first - 2), std::abs(first - 5)}), 1e-9) << millimetres;
+    }
+}
+
+TEST_F(RenderTest, SizesComeFromTheCapture)
+{
+    const std::string capture = makeSmallCapture(folder_);
+    ASSERT_EQ(runNacre({"acquire", capture, "--pixels-per-mm", "12", "--shrink", "2", "--normals", "least-squares",
+                        "-o", path("sized.nacre")})
+                  .exitCode,
+              0);
+    EXPECT_EQ(loadSurface(path("sized.nacre")).pixelsPerMillimetre, 6);
+    EXPECT_NE(runNacre({"info", path("sized.nacre")}).out.find("6 pixels a millimetre"), std::string::npos);
+    expectRefusal(runNacre({"acquire", capture, "--pixels-per-mm", "0", "-o", path("new.png")}), 2, "above 0");
 }
 
 TEST_F(RenderTest, ABlackEnvironmentIsABlackPicture)
