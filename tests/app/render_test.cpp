@@ -340,7 +340,7 @@ TEST_F(RenderTest, SizesComeFromTheCapture)
               0);
     EXPECT_EQ(loadSurface(path("sized.nacre")).pixelsPerMillimetre, 6);
     EXPECT_NE(runNacre({"info", path("sized.nacre")}).out.find("6 pixels a millimetre"), std::string::npos);
-    expectRefusal(runNacre({"acquire", capture, "--pixels-per-mm", "0", "-o", path("new.png")}), 2, "above 0");
+    expectOneLine(runNacre({"acquire", capture, "--pixels-per-mm", "0", "-o", path("new.nacre")}), 2, {"above 0"});
 }
 
 TEST_F(RenderTest, ABlackEnvironmentIsABlackPicture)
