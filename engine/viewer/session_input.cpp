@@ -1,6 +1,7 @@
 #include "engine/viewer/session_input.h"
 
 #include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
 #include <glm/common.hpp>
@@ -69,14 +70,14 @@ void SessionInput::takeMouse(const WindowEvents& events, const Window& window, c
     if (drag_ == Drag::none) {
         begin(events, window, stage);
     }
-    const glm::vec2 moved = cursor - cursor_;
-    cursor_ = cursor;
     if (drag_ != Drag::none) {
+        const bool isHeld = window.isHeld(dragButton_);
+        const glm::vec2 to = isHeld || !events.released[dragButton_] ? cursor : events.releasedAt;
+        const glm::vec2 moved = to - std::exchange(cursor_, to);
         drag(moved, stage);
-        if (!window.isHeld(dragButton_)) {
-            drag_ = Drag::none;
-        }
+        drag_ = isHeld ? drag_ : Drag::none;
     }
+    cursor_ = cursor;
     if (isOver && events.wheel != 0) {
         session.state.framing = zoomed(session.state.framing, events.wheel, cursor, stage.picture, stage.area);
     }

@@ -47,9 +47,8 @@ void onButton(GLFWwindow* window, int button, int action, int)
         return;
     }
     (action == GLFW_PRESS ? events.pressed : events.released)[button] = true;
-    if (action == GLFW_PRESS) {
-        events.pressedAt = static_cast<Window*>(glfwGetWindowUserPointer(window))->cursorOfEvents;
-    }
+    (action == GLFW_PRESS ? events.pressedAt : events.releasedAt) =
+        static_cast<Window*>(glfwGetWindowUserPointer(window))->cursorOfEvents;
     if (button == 0 && action == GLFW_PRESS) {
         double x = 0, y = 0;
         glfwGetCursorPos(window, &x, &y);

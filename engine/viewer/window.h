@@ -23,6 +23,7 @@ struct WindowEvents {
     bool pressed[kButtons] = {}; // left, right, middle
     bool released[kButtons] = {};
     glm::vec2 pressedAt{0, 0};  // the last of them: the cursor may have gone on since
+    glm::vec2 releasedAt{0, 0}; // likewise
     bool doubleClicked = false; // left
     bool resized = false;
     bool any = false; // these, a cursor that moved, a window that was uncovered

@@ -49,12 +49,15 @@ check "Ctrl+Shift+Z does it again" cmp "$dragged" "$shot"
 press r; screenshot
 check "R goes back" cmp "$first" "$shot"
 
-drag 2 600 300 640 320 680 310; screenshot
+drag 2 600 300 640 320 680 310; screenshot; turned=$shot
 check "a middle drag turns a surface" holds "$shot" '"turn"'
 check_later "as without a window" reproduces "$shot"
 check "the screen shows it turned" screen_shows "$shot" "$picture"
 press r; screenshot
 check "turned back it has the same bytes" cmp "$first" "$shot"
+xdotool mousemove 600 300 mousedown 2 mousemove 640 320 mousemove 680 310 mouseup 2 mousemove 300 600; screenshot
+check "a drag ends where its button is let go" cmp "$turned" "$shot"
+press r; screenshot
 
 press e; screenshot; brighter=$shot
 check "E exposes up" differs "$first" "$shot"
