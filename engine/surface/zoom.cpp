@@ -17,10 +17,12 @@ namespace {
 constexpr float kSameSurface = 0.5f; // cosine
 constexpr int kNeighbours = 9;       // the pixel of a place and those around it
 
-// The pixels around a place, and the weights of those of one material, which add up to 1 where there are any.
+using Shares = std::array<float, kNeighbours>;
+
+// The pixels around a place, and the weights of those of one surface, which add up to 1 where there are any.
 struct Neighbours {
     std::array<size_t, kNeighbours> pixels;
-    std::array<float, kNeighbours> weights;
+    Shares weights;
     uint8_t label = Surface::kNoMaterial;
     float cover = 0; // share of the place that has a normal
 };
@@ -37,40 +39,37 @@ float splineWeight(float away)
     return a < 0.5f ? 0.75f - a * a : 0.5f * (1.5f - a) * (1.5f - a);
 }
 
-// Leaves weights of the material that has most, on the surface of its nearest pixel; they then add up to 1.
-void keepOneSurface(const Surface& surface, Neighbours& found)
+// Leaves weights of the one surface that has most of the place by `shares`: of one material, and with normals like
+// those of one of its pixels. They then add up to 1.
+void keepOneSurface(const Surface& surface, const Shares& shares, Neighbours& found)
 {
-    const auto weightOf = [&](uint8_t label) {
-        float sum = 0;
-        for (int k = 0; k < kNeighbours; ++k) {
-            sum += surface.labels[found.pixels[k]] == label ? found.weights[k] : 0.0f;
-        }
-        return sum;
+    const auto isLike = [&](int k, int middle) {
+        const size_t p = found.pixels[k], q = found.pixels[middle];
+        return surface.labels[p] == surface.labels[q] &&
+               glm::dot(surface.normals.normals[p], surface.normals.normals[q]) >= kSameSurface;
     };
+    int best = 0;
     float most = 0;
-    for (int k = 0; k < kNeighbours; ++k) {
-        const uint8_t label = surface.labels[found.pixels[k]];
-        if (found.weights[k] > 0 && label != found.label && weightOf(label) > most) {
-            most = weightOf(label);
-            found.label = label;
+    for (int middle = 0; middle < kNeighbours && most < found.cover; ++middle) {
+        float share = 0;
+        for (int k = 0; shares[middle] > 0 && k < kNeighbours; ++k) {
+            share += shares[k] > 0 && isLike(k, middle) ? shares[k] : 0.0f;
         }
+        best = share > most ? middle : best;
+        most = std::max(most, share);
     }
-    const auto isKept = [&](int k) { return surface.labels[found.pixels[k]] == found.label && found.weights[k] > 0; };
-    int nearest = -1;
+    found.label = surface.labels[found.pixels[best]];
+    float sum = 0, sumOfShares = 0;
+    Shares kept;
     for (int k = 0; k < kNeighbours; ++k) {
-        if (isKept(k) && (nearest < 0 || found.weights[k] > found.weights[nearest])) {
-            nearest = k;
-        }
-    }
-    float sum = 0;
-    for (int k = 0; k < kNeighbours; ++k) {
-        const bool isSame = isKept(k) && glm::dot(surface.normals.normals[found.pixels[k]],
-                                                  surface.normals.normals[found.pixels[nearest]]) >= kSameSurface;
-        found.weights[k] = isSame ? found.weights[k] : 0.0f;
+        const bool isKept = shares[k] > 0 && isLike(k, best);
+        kept[k] = isKept ? shares[k] : 0.0f;
+        found.weights[k] = isKept ? found.weights[k] : 0.0f;
         sum += found.weights[k];
+        sumOfShares += kept[k];
     }
-    for (float& weight : found.weights) {
-        weight = sum > 0 ? weight / sum : 0.0f;
+    for (int k = 0; k < kNeighbours; ++k) { // none is within a pixel: just outside
+        found.weights[k] = sum > 0 ? found.weights[k] / sum : kept[k] / sumOfShares;
     }
 }
 
@@ -79,8 +78,7 @@ Neighbours neighboursOf(const Surface& surface, const glm::vec2& place)
     const int width = surface.normals.width, height = surface.normals.height;
     const glm::ivec2 middle(glm::floor(place));
     Neighbours found;
-    std::array<float, kNeighbours> splines;
-    float linear = 0;
+    Shares shares;
     for (int k = 0; k < kNeighbours; ++k) {
         const glm::ivec2 pixel = middle + glm::ivec2(k % 3 - 1, k / 3 - 1);
         const glm::vec2 away = place - (glm::vec2(pixel) + 0.5f);
@@ -88,14 +86,12 @@ Neighbours neighboursOf(const Surface& surface, const glm::vec2& place)
         const bool isValid = surface.normals.confidence[p] > 0 && surface.labels[p] != Surface::kNoMaterial;
         found.pixels[k] = p;
         found.weights[k] = isValid ? linearWeight(away.x) * linearWeight(away.y) : 0.0f;
-        splines[k] = isValid ? splineWeight(away.x) * splineWeight(away.y) : 0.0f;
-        found.cover += splines[k];
-        linear += found.weights[k];
+        shares[k] = isValid ? splineWeight(away.x) * splineWeight(away.y) : 0.0f;
+        found.cover += shares[k];
     }
-    if (linear == 0) { // just outside
-        found.weights = splines;
+    if (found.cover > 0) {
+        keepOneSurface(surface, shares, found);
     }
-    keepOneSurface(surface, found);
     return found;
 }
 

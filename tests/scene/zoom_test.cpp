@@ -78,6 +78,28 @@ TEST(Zoom, NothingLiesBetweenTheSidesOfAFold)
     }
 }
 
+// Of pixels as they are, corners lie half a pixel from it.
+TEST(Zoom, AFoldIsALineAndNotPixelsStairs)
+{
+    constexpr int kScale = 8;
+    const glm::vec2 across = glm::normalize(glm::vec2(1, 0.3f));
+    const auto right = [&](const glm::vec2& place) { return glm::dot(place - 8.0f, across); }; // of the fold, in pixels
+    Surface fold = transferredSurface(NormalMap(16, 16), Material{});
+    for (size_t i = 0; i < fold.labels.size(); ++i) {
+        fold.labels[i] = 0;
+        fold.normals.confidence[i] = 1;
+        fold.normals.normals[i] = {right({i % 16 + 0.5f, i / 16 + 0.5f}) < 0 ? -0.8f : 0.8f, 0, 0.6f};
+    }
+    const MagnifiedSurface near = magnified(fold, wholeZoom(16, 16, kScale));
+    float farthest = 0;
+    for (size_t i = 0; i < near.cover.size(); ++i) {
+        const float x = right((glm::vec2(i % 128, i / 128) + 0.5f) / float(kScale));
+        const bool isOff = (near.pixels.normals.normals[i].x > 0) != (x > 0);
+        farthest = isOff ? std::max(farthest, std::abs(x)) : farthest;
+    }
+    EXPECT_LT(farthest, 0.42f);
+}
+
 TEST(Zoom, TheOutlineStaysWhereItIs)
 {
     const Surface surface = halvedSphere();
