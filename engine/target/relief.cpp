@@ -5,6 +5,7 @@
 #include <limits>
 
 #include <glm/common.hpp>
+#include <glm/vec4.hpp>
 
 #include "engine/files/error.h"
 
@@ -12,12 +13,56 @@ namespace nacre {
 namespace {
 
 constexpr size_t kCoarseTriangles = 40'000; // some of lavapipe's milliseconds
+constexpr int kSmoothingRounds = 8;         // over stairs of some four pixels
 
 bool isStep(const Mesh& mesh, const std::array<uint32_t, 3>& corners, int stride)
 {
     const auto [low, high] =
         std::minmax({mesh.positions[corners[0]].z, mesh.positions[corners[1]].z, mesh.positions[corners[2]].z});
     return high - low > kSameSurface * static_cast<float>(stride);
+}
+
+// Ends of the edges of one triangle alone, of triangles of a grid with so many columns.
+std::vector<std::array<uint32_t, 2>> borderEdges(const std::vector<uint32_t>& indices, size_t vertices, int columns)
+{
+    constexpr size_t kKinds = 3; // of edges that begin at a vertex: to the right, down, and to the left below
+    std::vector<uint8_t> triangles(kKinds * vertices);
+    const auto forEachEdge = [&](const auto& visit) {
+        for (size_t i = 0; i < indices.size(); ++i) {
+            const auto [first, last] = std::minmax(indices[i], indices[i % 3 == 2 ? i - 2 : i + 1]);
+            const auto along = static_cast<int>(last - first);
+            visit(first, last, kKinds * first + (along == columns ? 1 : along == columns - 1 ? 2 : 0));
+        }
+    };
+    forEachEdge([&](uint32_t, uint32_t, size_t edge) { ++triangles[edge]; });
+    std::vector<std::array<uint32_t, 2>> border;
+    forEachEdge([&](uint32_t first, uint32_t last, size_t edge) {
+        if (triangles[edge] == 1) {
+            border.push_back({first, last});
+        }
+    });
+    return border;
+}
+
+// Moves the vertices of a border towards the middle of those beside them on it, which makes a line of pixels' stairs.
+void smoothBorder(Mesh& mesh, int columns)
+{
+    const auto border = borderEdges(mesh.indices, mesh.positions.size(), columns);
+    std::vector<glm::vec4> beside(mesh.positions.size());
+    for (int round = 0; round < kSmoothingRounds; ++round) {
+        for (const auto& [a, b] : border) {
+            beside[a] += glm::vec4(mesh.positions[b], 1);
+            beside[b] += glm::vec4(mesh.positions[a], 1);
+        }
+        for (const auto& edge : border) {
+            for (const uint32_t i : edge) {
+                if (beside[i].w > 0) {
+                    mesh.positions[i] = 0.5f * (mesh.positions[i] + glm::vec3(beside[i]) / beside[i].w);
+                    beside[i] = glm::vec4(0);
+                }
+            }
+        }
+    }
 }
 
 } // namespace
@@ -53,6 +98,7 @@ Mesh reliefMesh(std::shared_ptr<const Surface> front, int stride)
             add({a + 1, below, below + 1});
         }
     }
+    smoothBorder(mesh, columns);
     mesh.parts = {{.name = "known", .indexCount = mesh.indices.size()},
                   {.name = "steps", .firstIndex = mesh.indices.size(), .indexCount = steps.size(), .isSeen = false}};
     mesh.indices.insert(mesh.indices.end(), steps.begin(), steps.end());
