@@ -16,11 +16,20 @@ std::vector<BallSize> LitBalls::sizesWhile(bool lightsMove, std::vector<BallSize
     return sizes;
 }
 
+std::vector<BallSize> LitBalls::sizesMagnified(std::vector<BallSize> sizes)
+{
+    for (BallSize& size : sizes) {
+        size.display = std::max(size.display, std::min(kMostMagnification * size.display, kMagnifiedDisplay));
+    }
+    return sizes;
+}
+
 const BallCache& LitBalls::updated(bool lightsMove, const Inputs& inputs)
 {
     Kept& kept = lightsMove ? moving_ : rest_;
-    if (kept.isStale) {
+    if (kept.isStale || kept.sizes != inputs.sizes) {
         kept.balls.setMaterials(inputs.sizes, inputs.modulated);
+        kept.sizes = inputs.sizes;
         kept.isStale = false;
     }
     kept.balls.setLights(inputs.order.lights, std::array{inputs.order.still, inputs.order.moved});

@@ -7,6 +7,7 @@ namespace nacre {
 class LitBalls {
 public:
     static constexpr BallSize kMovingSize{.radiance = 256, .display = 512}; // at most
+    static constexpr int kMagnifiedDisplay = 1024, kMostMagnification = 4;
 
     LitBalls(const Context& context, DirectPass& direct, VkDeviceSize cacheBytes)
         : context_(context), rest_{BallCache(context, direct, cacheBytes)}, moving_{
@@ -16,9 +17,11 @@ public:
 
     // Of balls that are drawn from at rest or while lights move; sizes of what is too sharp at rest are 0.
     static std::vector<BallSize> sizesWhile(bool lightsMove, std::vector<BallSize> sizes);
+    // Of balls for pictures that are magnified: their texels are seen sooner.
+    static std::vector<BallSize> sizesMagnified(std::vector<BallSize> sizes);
 
     struct Inputs {
-        std::span<const BallSize> sizes; // sizesWhile
+        std::vector<BallSize> sizes;
         bool modulated;
         const MovingLights::Order& order;
         const Display& display;
@@ -36,6 +39,7 @@ public:
 private:
     struct Kept {
         BallCache balls;
+        std::vector<BallSize> sizes{};
         bool isStale = true; // does not know the materials yet
     };
     const Context& context_;

@@ -15,6 +15,15 @@ const std::vector<BallSize>& Renderer::ballSizes()
     return ballSizes_;
 }
 
+std::vector<BallSize> Renderer::drawnBallSizes()
+{
+    if (lightsMove_ || !zoom_ || !zoom_->magnifies()) {
+        return LitBalls::sizesWhile(lightsMove_, ballSizes());
+    }
+    const std::vector<BallSize> finer = LitBalls::sizesMagnified(ballSizes());
+    return BallCache::leastBytes(finer, !ballsAreCodes(), lights_.size()) <= cacheBytes_ ? finer : ballSizes();
+}
+
 bool Renderer::isCoarse()
 {
     return pathTaken() == RenderPath::ball && LitBalls::sizesWhile(lightsMove_, ballSizes()) != ballSizes();

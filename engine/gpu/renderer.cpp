@@ -283,8 +283,7 @@ void Renderer::updateBalls()
 const BallCache& Renderer::updatedBalls()
 {
     uploadLights();
-    const std::vector<BallSize> sizes = LitBalls::sizesWhile(lightsMove_, ballSizes());
-    return balls_.updated(lightsMove_, {sizes, !ballsAreCodes(), order_, display_, tables_, groups_});
+    return balls_.updated(lightsMove_, {drawnBallSizes(), !ballsAreCodes(), order_, display_, tables_, groups_});
 }
 
 void Renderer::drawFromBalls(const Shaded& shaded, bool withResidual)

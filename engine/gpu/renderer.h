@@ -72,6 +72,9 @@ public:
     std::string whyDirect();
     // One a material, of the ball path.
     const std::vector<BallSize>& ballSizes();
+    // The same as pictures are drawn from them: coarser while lights move; else, where pictures are magnified and the
+    // cache has room, of more texels, so that these are not seen.
+    std::vector<BallSize> drawnBallSizes();
     // Whether balls are coarser than these, since lights move.
     bool isCoarse();
 

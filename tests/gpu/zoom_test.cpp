@@ -1,4 +1,6 @@
 // Pictures at another scale against their twins on the CPU, and against the picture as it is.
+#include "engine/brdf/brdf_tabulation.h"
+#include "engine/files/measures.h"
 #include "engine/gpu/renderer.h"
 #include "engine/scene/reference.h"
 #include "tests/gpu/frame_match.h"
@@ -39,7 +41,25 @@ TEST_F(ZoomTest, MagnifiedIsTheTwinsPicture)
     Renderer fromBalls = rendererOf(scene_, RenderPath::ball);
     fromBalls.setZoom(zoom);
     expectNear(fromBalls.picture(),
-               coveredCodes(referenceBallPicture(nearScene, fromBalls.ballSizes(), {}), near.cover));
+               coveredCodes(referenceBallPicture(nearScene, fromBalls.drawnBallSizes(), {}), near.cover));
+}
+
+// Their texels are several pixels wide at the size that is fine enough for the picture as it is.
+TEST_F(ZoomTest, MagnifiedIsFromFinerBalls)
+{
+    Scene sphere = glossyScene(90, 60);
+    const BrdfTable gloss = tabulatedBrdf(LambertGgx{.diffuse = glm::vec3(0.4f), .alpha = 0.3f});
+    sphere.surface = transferredSurface(sphereNormalMap(200), {"gloss", gloss, {}});
+    const Zoom zoom{.scale = 4, .origin = {60, 60}, .size = {320, 320}};
+    Renderer direct = rendererOf(sphere, RenderPath::direct), balls = rendererOf(sphere, RenderPath::ball);
+    direct.setZoom(zoom);
+    balls.setZoom(zoom);
+    Scene near = sphere;
+    near.surface = magnified(sphere.surface, zoom).pixels;
+    near.surface.materials = sphere.surface.materials;
+    const std::vector<uint8_t> all(320 * 320, 1);
+    const auto off = [&](const Image& picture) { return picturePsnr(picture, direct.picture(), all); };
+    EXPECT_GT(off(balls.picture()), off(referenceBallPicture(near, balls.ballSizes(), {})) + 2);
 }
 
 TEST_F(ZoomTest, ReducedIsTheMeanOfThePicture)
