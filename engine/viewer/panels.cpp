@@ -104,7 +104,7 @@ void besideIfItFits(float x, const char* label)
     }
 }
 
-bool showStatus(const Session& session, const Loader* busy, const Stage& stage, const std::string& remark)
+bool showStatus(const Session& session, const Loader* busy, const Stage& stage, float hint, const std::string& remark)
 {
     const Area& area = stage.area;
     bool isCancelled = false;
@@ -122,6 +122,10 @@ bool showStatus(const Session& session, const Loader* busy, const Stage& stage, 
         ImGui::TextUnformatted(busy->name().c_str());
     } else if (!session.message.empty()) {
         ImGui::TextUnformatted(session.message.c_str());
+    } else if (hint > 0) {
+        ImGui::PushStyleVar(ImGuiStyleVar_Alpha, hint);
+        ImGui::TextUnformatted("Drag on the ball of lights, or with the right button anywhere. H: help");
+        ImGui::PopStyleVar();
     } else {
         ImGui::TextDisabled("%d x %d   zoom %.0f %%   H: help   %s", stage.picture.x, stage.picture.y,
                             static_cast<double>(100 * framingOf(session, stage).zoom), remark.c_str());

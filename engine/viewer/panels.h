@@ -27,9 +27,9 @@ struct PanelInputs {
 // All of them: left and right of the picture, `width` the right ones'.
 void showPanels(Session& session, const PanelInputs& inputs, const Stage& stage, float width,
                 std::vector<PlacedPicture>& placed);
-// Below the picture; `busy` is what is being read, or null, `remark` what there is to say of the picture. True where
-// the user cancels what is read.
-bool showStatus(const Session& session, const Loader* busy, const Stage& stage, const std::string& remark);
+// Below the picture; `busy` is what is being read, or null, `hint` the opacity of what to do first, `remark` what there
+// is to say of the picture. True where the user cancels what is read.
+bool showStatus(const Session& session, const Loader* busy, const Stage& stage, float hint, const std::string& remark);
 // Between the two pictures that a wipe shows.
 void showWipeLine(const Session& session, const Stage& stage);
 

@@ -14,6 +14,7 @@
 #include "engine/gpu/texture.h"
 #include "engine/scene/coverage.h"
 #include "engine/scene/scene_residual.h"
+#include "engine/view_state/opening_hint.h"
 #include "engine/view_state/recent_files.h"
 #include "engine/viewer/background_loads.h"
 #include "engine/viewer/frame_pace.h"
@@ -34,7 +35,6 @@ constexpr double kProgressSeconds = 0.1; // between looks at what is loading
 constexpr double kRestSeconds = 0.25;    // after which what is held counts as still
 constexpr double kTitleSeconds = 0.25;   // between changes of the title while frames follow each other
 constexpr glm::vec3 kBackground{0.11f, 0.11f, 0.12f};
-constexpr const char* kHint = "Drag on the ball of lights, or with the right button anywhere. H: help";
 
 // Frames: what has happened since the last, what was read, and then pictures and panels, as often as anything changes.
 class ViewerWindow {
@@ -89,6 +89,9 @@ private:
     bool rests_ = false; // the mouse, while it holds a light or the object
     std::string remark_; // on the picture that was last at rest
     Stopwatch sinceTitle_;
+    Stopwatch sinceOpened_;
+    OpeningHint hint_;
+    float drawnHint_ = 1; // its opacity, as it was drawn
 
     BackgroundLoads loads_;
     RecentFiles recent_;
@@ -102,7 +105,6 @@ ViewerWindow::ViewerWindow(const Context& context, ViewState state, Choices choi
       loads_(source, session_.state, Window::wake), recent_(options.recent)
 {
     session_.textScale = std::clamp(options.textScale, kLeastTextScale, kMostTextScale);
-    session_.message = kHint;
     followScale();
     view_ = viewDirectionOf(session_.state);
     takeScene(session_.state, loadScene(source_, session_.state, input_.choices, {}, {}));
@@ -143,7 +145,10 @@ double ViewerWindow::waitingTime() const
     if (loads_.busy() != nullptr) {
         return kProgressSeconds;
     }
-    return pictures_.isMoving() ? kRestSeconds : -1;
+    if (pictures_.isMoving()) {
+        return kRestSeconds;
+    }
+    return drawnHint_ > 0 ? hint_.rest(sinceOpened_.seconds()) : -1;
 }
 
 void ViewerWindow::takeEvents(const WindowEvents& events)
@@ -153,11 +158,14 @@ void ViewerWindow::takeEvents(const WindowEvents& events)
             rests_ = true;
             pace_.ask(1);
         }
-        pace_.ask(loads_.busy() != nullptr ? 1 : 0);
+        pace_.ask(loads_.busy() != nullptr || hint_.opacity(sinceOpened_.seconds()) != drawnHint_ ? 1 : 0);
         return;
     }
     pace_.settle();
     rests_ = false;
+    if (!events.keys.empty() || events.pressed[0] || events.pressed[1] || events.pressed[2]) {
+        hint_.leave(sinceOpened_.seconds());
+    }
     if (events.resized) {
         swapchain_.rebuild();
     }
@@ -379,7 +387,8 @@ void ViewerWindow::describePanels(const Stage& stage)
                !session_.playing) { // it takes as long as a frame: once nothing moves
         remark_ = describeUncertainShare(pictures_.uncertainShare());
     }
-    if (showStatus(session_, loads_.busy(), stage, remark_)) {
+    drawnHint_ = hint_.opacity(sinceOpened_.seconds());
+    if (showStatus(session_, loads_.busy(), stage, drawnHint_, remark_)) {
         const bool wasScene = loads_.readsScene();
         session_.message = fmt::format("cancelled {}", loads_.cancel());
         if (wasScene) {
