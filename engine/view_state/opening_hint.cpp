@@ -1,6 +1,7 @@
 #include "engine/view_state/opening_hint.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace nacre {
 
@@ -11,7 +12,8 @@ void OpeningHint::leave(double now)
 
 float OpeningHint::opacity(double now) const
 {
-    return static_cast<float>(std::clamp(1 - (now - fadesAt_) / kFadeSeconds, 0.0, 1.0));
+    const double left = std::clamp(kFadeSeconds - (now - fadesAt_), 0.0, kFadeSeconds);
+    return static_cast<float>(std::ceil(left / kStepSeconds) * kStepSeconds / kFadeSeconds);
 }
 
 double OpeningHint::rest(double now) const

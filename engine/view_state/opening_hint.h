@@ -6,13 +6,13 @@ namespace nacre {
 class OpeningHint {
 public:
     static constexpr double kSeconds = 8, kFadeSeconds = 1;
-    static constexpr double kStepSeconds = 0.1; // between looks while it fades
+    static constexpr double kStepSeconds = 0.1; // in which it fades
 
     // It need not stay any longer.
     void leave(double now);
     // 1, then down to 0.
     float opacity(double now) const;
-    // Seconds until it looks otherwise, or will have faded away.
+    // Seconds until it may look otherwise, of one that is seen.
     double rest(double now) const;
 
 private:

@@ -1,3 +1,5 @@
+#include <utility>
+
 #include <gtest/gtest.h>
 
 #include "engine/view_state/opening_hint.h"
@@ -27,6 +29,18 @@ TEST(OpeningHint, GoesByItselfAfterAWhile)
     EXPECT_NEAR(goneAt(hint, 0, looks), OpeningHint::kSeconds + OpeningHint::kFadeSeconds,
                 2 * OpeningHint::kStepSeconds);
     EXPECT_LE(looks, 13) << "an idle window hardly draws";
+}
+
+TEST(OpeningHint, FadesInFewSteps)
+{
+    const OpeningHint hint;
+    int changes = 0;
+    float before = 1;
+    for (double now = 0; now < 12; now += 1 / 64.0) {
+        changes += std::exchange(before, hint.opacity(now)) != before;
+    }
+    EXPECT_LE(changes, 10) << "a frame each";
+    EXPECT_EQ(before, 0);
 }
 
 TEST(OpeningHint, GoesSoonerOnceTheUserHasBegunAndStaysAway)
