@@ -19,6 +19,7 @@ public:
 
     size_t drawn() const { return drawn_; }
     double seconds() const { return seconds_; } // of one, smoothed
+    double sinceFrame() const { return sinceBegin_.seconds(); }
 
 private:
     static constexpr int kToSettle = 3; // ImGui takes a few

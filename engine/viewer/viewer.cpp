@@ -1,7 +1,8 @@
 #include "engine/viewer/viewer.h"
 
 #include <algorithm>
-#include <array>
+#include <cmath>
+#include <limits>
 #include <utility>
 
 #include <fmt/format.h>
@@ -33,7 +34,8 @@ namespace {
 
 constexpr double kProgressSeconds = 0.1; // between looks at what is loading
 constexpr double kRestSeconds = 0.25;    // after which what is held counts as still
-constexpr double kTitleSeconds = 0.25;   // between changes of the title while frames follow each other
+constexpr double kLeastWait = 1e-3;
+constexpr double kTitleSeconds = 0.25; // between changes of the title while frames follow each other
 constexpr glm::vec3 kBackground{0.11f, 0.11f, 0.12f};
 
 // Frames: what has happened since the last, what was read, and then pictures and panels, as often as anything changes.
@@ -47,6 +49,7 @@ public:
 
 private:
     double waitingTime() const;
+    void passTime();
     void takeEvents(const WindowEvents& events);
     void takeWhatWasRead();
     void takeScene(const ViewState& state, const LoadedScene& scene);
@@ -89,7 +92,7 @@ private:
     bool rests_ = false; // the mouse, while it holds a light or the object
     std::string remark_; // on the picture that was last at rest
     Stopwatch sinceTitle_;
-    Stopwatch sinceOpened_;
+    Stopwatch sinceOpened_, sinceEvents_;
     OpeningHint hint_;
     float drawnHint_ = 1; // its opacity, as it was drawn
 
@@ -133,7 +136,8 @@ void ViewerWindow::run()
     fmt::print("showed       {} pictures\n", pace_.drawn());
 }
 
-// 0 while something moves; negative where nothing does until something happens.
+// 0 while something moves; negative where nothing does until something happens. What presents a frame wakes the window
+// as well, so that what is due by time is so by the clock.
 double ViewerWindow::waitingTime() const
 {
     if (swapchain_.isEmpty()) {
@@ -142,25 +146,36 @@ double ViewerWindow::waitingTime() const
     if (pace_.isDue()) {
         return 0;
     }
+    double wait = std::numeric_limits<double>::infinity();
     if (loads_.busy() != nullptr) {
-        return kProgressSeconds;
+        wait = kProgressSeconds - pace_.sinceFrame();
     }
     if (pictures_.isMoving()) {
-        return kRestSeconds;
+        wait = std::min(wait, kRestSeconds - sinceEvents_.seconds());
     }
-    return drawnHint_ > 0 ? hint_.rest(sinceOpened_.seconds()) : -1;
+    if (drawnHint_ > 0) {
+        wait = std::min(wait, hint_.rest(sinceOpened_.seconds()));
+    }
+    return std::isfinite(wait) ? std::max(wait, kLeastWait) : -1;
+}
+
+void ViewerWindow::passTime()
+{
+    const bool isStill = pictures_.isMoving() && sinceEvents_.seconds() >= kRestSeconds;
+    rests_ = rests_ || (isStill && !pace_.isDue());
+    const bool hasProgress = loads_.busy() != nullptr && pace_.sinceFrame() >= kProgressSeconds;
+    if (isStill || hasProgress || hint_.opacity(sinceOpened_.seconds()) != drawnHint_) {
+        pace_.ask(1);
+    }
 }
 
 void ViewerWindow::takeEvents(const WindowEvents& events)
 {
     if (!events.any) {
-        if (!pace_.isDue() && pictures_.isMoving()) {
-            rests_ = true;
-            pace_.ask(1);
-        }
-        pace_.ask(loads_.busy() != nullptr || hint_.opacity(sinceOpened_.seconds()) != drawnHint_ ? 1 : 0);
+        passTime();
         return;
     }
+    sinceEvents_.lap();
     pace_.settle();
     rests_ = false;
     if (!events.keys.empty() || events.pressed[0] || events.pressed[1] || events.pressed[2]) {
