@@ -13,12 +13,11 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
-#include <glm/trigonometric.hpp>
 
 #include "app/arguments/destinations.h"
 #include "app/commands/commands.h"
 #include "app/materials/parameter_export.h"
-#include "app/materials/rti_fits.h"
+#include "app/materials/rti_export.h"
 #include "app/page/page_export.h"
 #include "engine/exchange/relief_mesh.h"
 #include "engine/files/error.h"
@@ -27,9 +26,6 @@
 #include "engine/files/whole_file.h"
 #include "engine/loading/scene_loading.h"
 #include "engine/materials/material_specification.h"
-#include "engine/rti/ptm_file.h"
-#include "engine/rti/rti_picture.h"
-#include "engine/rti/rti_web.h"
 #include "engine/scene/picture_size.h"
 #include "engine/scene/reference.h"
 #include "engine/scene/scene.h"
@@ -43,18 +39,13 @@ namespace {
 
 struct ExportArguments {
     std::filesystem::path surface;
-    std::filesystem::path ptm;
-    std::filesystem::path web;
     std::filesystem::path normals;
     std::filesystem::path albedo;
     std::filesystem::path height;
     std::filesystem::path mesh;
     ParameterExport parameters;
-    std::string ptmFormat = "lrgb";
-    std::string basis = "hsh";
+    RtiExport rti;
     std::string size;
-    std::optional<float> exposure;
-    int lights = 64;
     int threads = 0;
     bool shadows = false;
     bool quiet = false;
@@ -67,13 +58,10 @@ struct ExportArguments {
     void check() const;
     bool asksNothingElse() const
     {
-        return ptm.empty() && web.empty() && normals.empty() && albedo.empty() && height.empty() && mesh.empty() &&
+        return !rti.isAsked() && normals.empty() && albedo.empty() && height.empty() && mesh.empty() &&
                page.file.empty();
     }
 };
-
-constexpr int kFewestLights = 18; // twice the terms of the larger basis
-constexpr int kMostLights = 4096;
 
 Error usageError(const std::string& wrong, const std::string& expected)
 {
@@ -90,24 +78,12 @@ void requireExtension(const char* option, const fs::path& file, const std::vecto
 
 void requireChoices(const ExportArguments& arguments)
 {
-    requireExtension("--ptm", arguments.ptm, {".ptm"});
+    requireExtension("--ptm", arguments.rti.ptm, {".ptm"});
     requireExtension("--write-normals", arguments.normals, {".png", ".exr"});
     requireExtension("--albedo", arguments.albedo, {".png", ".exr"});
     requireExtension("--height", arguments.height, {".exr"});
     requireExtension("--mesh", arguments.mesh, {".ply", ".obj", ".glb"});
-    if (arguments.ptmFormat != "lrgb" && arguments.ptmFormat != "rgb") {
-        throw usageError(fmt::format("--ptm-format {} is not known", arguments.ptmFormat), "lrgb or rgb");
-    }
-    if (arguments.basis != "hsh" && arguments.basis != "ptm") {
-        throw usageError(fmt::format("--basis {} is not known", arguments.basis), "hsh or ptm");
-    }
-    if (arguments.lights < kFewestLights || arguments.lights > kMostLights) {
-        throw usageError(fmt::format("--lights {} is out of range", arguments.lights),
-                         fmt::format("{} to {}", kFewestLights, kMostLights));
-    }
-    if (arguments.exposure && !std::isfinite(*arguments.exposure)) {
-        throw usageError("--exposure is not finite", "a number of stops");
-    }
+    arguments.rti.check();
     if (!arguments.size.empty()) {
         sizeFromArgument("--size", arguments.size);
     }
@@ -119,8 +95,8 @@ void requireChoices(const ExportArguments& arguments)
 void requireOutputs(const ExportArguments& arguments)
 {
     const ParameterExport& parameters = arguments.parameters;
-    std::vector<fs::path> outputs = {arguments.ptm,        arguments.web,   arguments.normals,   arguments.albedo,
-                                     arguments.height,     arguments.mesh,  arguments.page.file, parameters.gltf,
+    std::vector<fs::path> outputs = {arguments.rti.ptm,    arguments.rti.web, arguments.normals,   arguments.albedo,
+                                     arguments.height,     arguments.mesh,    arguments.page.file, parameters.gltf,
                                      parameters.materialX, parameters.balls};
     std::erase_if(outputs, [](const fs::path& output) { return output.empty(); });
     if (outputs.empty()) {
@@ -134,11 +110,11 @@ void requireOutputs(const ExportArguments& arguments)
             outputs.begin() + static_cast<std::ptrdiff_t>(i)) {
             throw usageError(fmt::format("{} is asked for twice", outputs[i].string()), "a name for each output");
         }
-        if (outputs[i] != arguments.web) {
+        if (outputs[i] != arguments.rti.web) {
             requireFile(outputs[i], arguments.force);
         }
     }
-    requireWholeFolder(arguments.web, arguments.force, "info.json");
+    requireWholeFolder(arguments.rti.web, arguments.force, "info.json");
 }
 
 void ExportArguments::addTo(CLI::App& command)
@@ -147,13 +123,14 @@ void ExportArguments::addTo(CLI::App& command)
         .add_option("SURFACE", surface, "Folder NAME.nacre of nacre acquire; for --gltf and --materialx any material")
         ->option_text("NAME.nacre|MATERIAL")
         ->required();
-    command.add_option("--ptm", ptm, "Polynomial texture map to write, FILE.ptm")->option_text("FILE");
+    command.add_option("--ptm", rti.ptm, "Polynomial texture map to write, FILE.ptm")->option_text("FILE");
     command
-        .add_option("--ptm-format", ptmFormat, "Format of the PTM: lrgb (one biquadratic and a colour a pixel) or rgb")
+        .add_option("--ptm-format", rti.ptmFormat,
+                    "Format of the PTM: lrgb (one biquadratic and a colour a pixel) or rgb")
         ->capture_default_str();
-    command.add_option("--rti-web", web, "Folder for info.json and plane_N.jpg, for OpenLIME and relight")
+    command.add_option("--rti-web", rti.web, "Folder for info.json and plane_N.jpg, for OpenLIME and relight")
         ->option_text("OUT");
-    command.add_option("--basis", basis, "Functions of --rti-web: hsh (nine) or ptm (six)")->capture_default_str();
+    command.add_option("--basis", rti.basis, "Functions of --rti-web: hsh (nine) or ptm (six)")->capture_default_str();
     command.add_option("--write-normals", normals, "Normals to write, .png (16 bits, (n + 1) / 2) or .exr")
         ->option_text("FILE");
     command.add_option("--height", height, "Height to write, .exr: pixels towards the viewer")->option_text("FILE");
@@ -172,9 +149,9 @@ void ExportArguments::addTo(CLI::App& command)
     command
         .add_option("--fits", fits, "Folder of merl_abc_params.csv and merl_sgd_params.csv (default: $NACRE_FITS_DIR)")
         ->option_text("DIR");
-    command.add_option("--lights", lights, "Number of virtual lights for the fits of --ptm and --rti-web")
+    command.add_option("--lights", rti.lights, "Number of virtual lights for the fits of --ptm and --rti-web")
         ->capture_default_str();
-    command.add_option("--exposure", exposure,
+    command.add_option("--exposure", rti.exposure,
                        "Exposure of --ptm and --rti-web in stops (default: 99th percentile over all lights at 0.9)");
     command.add_flag("--shadows", shadows,
                      "Cast shadows, from the surface's height; always where it explains the photographs'");
@@ -236,7 +213,7 @@ float saveAlbedo(const std::filesystem::path& file, const Image& albedo)
 Surface surfaceToExport(const ExportArguments& arguments)
 {
     Surface surface = loadSurface(arguments.surface);
-    const bool needsMaterial = !arguments.ptm.empty() || !arguments.web.empty() || !arguments.albedo.empty();
+    const bool needsMaterial = arguments.rti.isAsked() || !arguments.albedo.empty();
     if (needsMaterial && surface.materials.empty()) {
         throw Error(arguments.surface, "is a target without a material",
                     "a surface of nacre acquire; of a target, --write-normals alone can be exported");
@@ -261,98 +238,6 @@ void print(const ExportArguments& arguments, const std::string& line)
 {
     if (!arguments.quiet) {
         fmt::print("{}\n", line);
-    }
-}
-
-uintmax_t bytesIn(const fs::path& folder)
-{
-    uintmax_t bytes = 0;
-    for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
-        bytes += entry.file_size();
-    }
-    return bytes;
-}
-
-// The largest angle to the view.
-double largestPolarRadians(const std::vector<CapturedLight>& lights)
-{
-    double largest = 0;
-    for (const CapturedLight& captured : lights) {
-        largest = std::max(largest, std::acos(std::clamp<double>(captured.light.direction.z, -1, 1)));
-    }
-    return largest;
-}
-
-std::string describeLights(const Surface& surface, const RtiFits& fits)
-{
-    const double captured = largestPolarRadians(surface.lights);
-    const auto beyond = std::count_if(fits.lights().begin(), fits.lights().end(),
-                                      [&](const glm::vec3& light) { return light.z < std::cos(captured); });
-    std::string text = fmt::format("fitted to {} lights over the hemisphere, exposure {:+.2f} stops",
-                                   fits.lights().size(), fits.exposureStops());
-    if (captured > 0 && beyond > 0) {
-        text += fmt::format(
-            "; {} of them farther from the view than the captured ones ({:.0f} degrees), where the material is a guess",
-            beyond, glm::degrees(captured));
-    }
-    return text;
-}
-
-std::string describeFile(const fs::path& file, const std::string& content, uintmax_t bytes, double psnr)
-{
-    return fmt::format("{}: {}, {:.2f} MB, {:.2f} dB against the surface under {} other lights", file.string(), content,
-                       static_cast<double>(bytes) / 1e6, psnr, rtiCheckLights().size());
-}
-
-void exportPtm(const ExportArguments& arguments, RtiFits& fits)
-{
-    const PtmFormat format = arguments.ptmFormat == "rgb" ? PtmFormat::rgb : PtmFormat::lrgb;
-    savePtm(arguments.ptm, ptmFromRti(fits.of(RtiBasis::ptm), format));
-    if (!arguments.quiet) {
-        const double psnr = fits.psnrOf(rtiFromPtm(loadPtm(arguments.ptm)));
-        print(arguments, describeFile(arguments.ptm, ptmFormatName(format), fs::file_size(arguments.ptm), psnr));
-    }
-}
-
-RtiBasis basisOfWeb(const ExportArguments& arguments)
-{
-    return arguments.basis == "ptm" ? RtiBasis::ptm : RtiBasis::hsh;
-}
-
-void exportWeb(const ExportArguments& arguments, RtiFits& fits)
-{
-    const RtiPicture& picture = fits.of(basisOfWeb(arguments));
-    WholeOutput output(arguments.web, arguments.force);
-    fs::create_directory(output.temporary());
-    saveRtiWeb(output.temporary(), picture, fits.lights());
-    output.commit();
-    if (!arguments.quiet) {
-        const std::string content = fmt::format("{} in {} pictures", arguments.basis, picture.terms.size());
-        const double psnr = fits.psnrOf(loadRtiWeb(arguments.web));
-        print(arguments, describeFile(arguments.web, content, bytesIn(arguments.web), psnr));
-    }
-}
-
-// Both at once, so that each light's picture is made once.
-void exportRti(const ExportArguments& arguments, const Surface& surface)
-{
-    std::vector<RtiBasis> bases;
-    if (!arguments.ptm.empty()) {
-        bases.push_back(RtiBasis::ptm);
-    }
-    if (!arguments.web.empty() && (bases.empty() || bases.front() != basisOfWeb(arguments))) {
-        bases.push_back(basisOfWeb(arguments));
-    }
-    if (bases.empty()) {
-        return;
-    }
-    RtiFits fits(surface, bases, {arguments.lights, arguments.exposure, arguments.threads});
-    print(arguments, describeLights(surface, fits));
-    if (!arguments.ptm.empty()) {
-        exportPtm(arguments, fits);
-    }
-    if (!arguments.web.empty()) {
-        exportWeb(arguments, fits);
     }
 }
 
@@ -435,6 +320,9 @@ ParameterExport parametersOf(const ExportArguments& arguments)
 void runExport(ExportArguments& arguments)
 {
     arguments.parameters = parametersOf(arguments);
+    arguments.rti.threads = arguments.threads;
+    arguments.rti.force = arguments.force;
+    arguments.rti.quiet = arguments.quiet;
     arguments.check();
     if (arguments.parameters.isAsked()) {
         exportParameters(arguments.parameters);
@@ -444,7 +332,7 @@ void runExport(ExportArguments& arguments)
     }
     const Surface surface = surfaceToExport(arguments);
     exportMaps(arguments, surface);
-    exportRti(arguments, surface);
+    exportRti(arguments.rti, surface);
     exportPage(arguments, surface);
 }
 
