@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include <imgui.h>
 
 #include "engine/viewer/panels.h"
@@ -20,6 +22,17 @@ void showWipe(Session& session, const PanelInputs& inputs, size_t index, bool is
     }
 }
 
+// In the square of this side at the cursor, as far as the panel shows it.
+void placeThumbnail(const Texture& picture, const ImVec2& at, float side, std::vector<PlacedPicture>& placed)
+{
+    const ImVec2 low = ImGui::GetWindowDrawList()->GetClipRectMin();
+    const ImVec2 high = ImGui::GetWindowDrawList()->GetClipRectMax();
+    const auto width = static_cast<float>(picture.extent().width), height = static_cast<float>(picture.extent().height);
+    const glm::vec2 size = side / std::max(width, height) * glm::vec2(width, height);
+    placed.push_back(placedPicture(picture, {{at.x, at.y}, size}, {{low.x, low.y}, {high.x - low.x, high.y - low.y}}));
+    placed.back().isStill = true;
+}
+
 void showMaterial(Session& session, const PanelInputs& inputs, size_t index, bool isChosen,
                   std::vector<PlacedPicture>& placed)
 {
@@ -29,10 +42,7 @@ void showMaterial(Session& session, const PanelInputs& inputs, size_t index, boo
     const ImVec2 at = ImGui::GetCursorScreenPos();
     ImGui::Dummy({side, side});
     if (found != inputs.thumbnails.end()) {
-        const ImVec2 low = ImGui::GetWindowDrawList()->GetClipRectMin();
-        const ImVec2 high = ImGui::GetWindowDrawList()->GetClipRectMax();
-        placed.push_back(placedPicture(found->second, {{at.x, at.y}, {side, side}},
-                                       {{low.x, low.y}, {high.x - low.x, high.y - low.y}}));
+        placeThumbnail(found->second, at, side, placed);
     }
     ImGui::SameLine();
     const std::string name = std::to_string(index + 1) + "  " + choice.name;
@@ -48,6 +58,22 @@ void showMaterial(Session& session, const PanelInputs& inputs, size_t index, boo
         showWipe(session, inputs, index, isWiped, {0.8f * wipeWidth, side});
     }
     ImGui::PopStyleVar();
+}
+
+// Shapes that have been shown have a thumbnail at the right of their column, `right`.
+void showShape(Session& session, const PanelInputs& inputs, size_t index, bool isChosen, float right,
+               std::vector<PlacedPicture>& placed)
+{
+    const TargetChoice& choice = inputs.choices.targets[index];
+    const float side = inputs.shapeSize;
+    if (ImGui::RadioButton(choice.name.c_str(), isChosen)) {
+        chooseTarget(session, inputs.choices, index);
+    }
+    const auto found = inputs.shapes.find(choice.path);
+    const float x = ImGui::GetWindowPos().x + right - side;
+    if (found != inputs.shapes.end() && ImGui::GetItemRectMax().x <= x) { // names come first
+        placeThumbnail(found->second, {x, ImGui::GetItemRectMin().y}, side, placed);
+    }
 }
 
 } // namespace
@@ -67,14 +93,15 @@ void showMaterialPanel(Session& session, const PanelInputs& inputs, std::vector<
         ImGui::TextDisabled("on the shape of (T)");
         const auto target = chosenTarget(session.state, inputs.choices);
         const float half = ImGui::GetCursorPosX() + 0.5f * ImGui::GetContentRegionAvail().x;
+        const float gap = ImGui::GetStyle().ItemSpacing.x;
         for (size_t i = 0; i < inputs.choices.targets.size(); ++i) {
             ImGui::PushID(static_cast<int>(i) + 1000);
             if (i % 2 == 1 && ImGui::GetItemRectMax().x < ImGui::GetWindowPos().x + half) {
                 besideIfItFits(half, inputs.choices.targets[i].name.c_str());
             }
-            if (ImGui::RadioButton(inputs.choices.targets[i].name.c_str(), target == i)) {
-                chooseTarget(session, inputs.choices, i);
-            }
+            const bool isLeft = ImGui::GetCursorPosX() < half;
+            const float right = isLeft ? half - gap : ImGui::GetWindowContentRegionMax().x;
+            showShape(session, inputs, i, target == i, right, placed);
             ImGui::PopID();
         }
     }

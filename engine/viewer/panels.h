@@ -13,8 +13,9 @@ namespace nacre {
 // What panels read beside the session, and the pictures that they place among their controls.
 struct PanelInputs {
     const Choices& choices;
-    const std::map<std::string, Texture>& thumbnails; // by MaterialChoice::specification
-    const Texture* ball = nullptr;                    // the material lit as the surface is
+    const std::map<std::string, Texture>& thumbnails;       // by MaterialChoice::specification
+    const std::map<std::filesystem::path, Texture>& shapes; // by TargetChoice::path
+    const Texture* ball = nullptr;                          // the material lit as the surface is
     const DrawnSurface* drawn = nullptr;
     std::span<const std::filesystem::path> recent; // surfaces, the newest first
     const Photographs* photographs = nullptr;      // once they are read
@@ -22,6 +23,7 @@ struct PanelInputs {
     std::optional<glm::ivec2> pixel;               // under the cursor, or the last that was
     std::string comparisonFigures;                 // of the photograph on screen
     float scale = 1;                               // pixels a unit of layout
+    float shapeSize = 0;                           // pixels
 };
 
 // All of them: left and right of the picture, `width` the right ones'.

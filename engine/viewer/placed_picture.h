@@ -16,8 +16,9 @@ struct PlacedPicture {
     const Texture* texture = nullptr;
     int firstColumn = 0;
     int endColumn = 0;
-    Framing framing; // a resolved one
-    Area area;       // what lies outside is cut off
+    Framing framing;      // a resolved one
+    Area area;            // what lies outside is cut off
+    bool isStill = false; // the texture is as it was when it was last placed
 };
 
 // All of the texture stretched over `place`, as far as it lies in `area`.

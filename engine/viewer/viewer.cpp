@@ -53,6 +53,7 @@ private:
     void takeEvents(const WindowEvents& events);
     void takeWhatWasRead();
     void takeScene(const ViewState& state, const LoadedScene& scene);
+    void keepThumbnail();
     void keepShown();
     void noteRecent();
     void openRecent();
@@ -81,7 +82,10 @@ private:
     const Texture* ball_ = nullptr; // drawn in this frame
     PhotographComparison comparison_;
     std::map<std::string, Texture> thumbnails_;
-    std::optional<SeenPart> seen_; // of the renders, as they were drawn
+    std::map<std::filesystem::path, Texture> shapes_; // thumbnails of those that have been shown
+    std::optional<std::filesystem::path> shape_;      // TargetChoice::path of the one that is
+    bool hasThumbnail_ = false;                       // since it is
+    std::optional<SeenPart> seen_;                    // of the renders, as they were drawn
     std::vector<PlacedPicture> placed_;
 
     SessionInput input_;
@@ -198,6 +202,9 @@ void ViewerWindow::takeWhatWasRead()
     if (done.scene && done.scene->choices) {
         input_.choices = *done.scene->choices;
         thumbnails_.clear();
+        shapes_.clear();
+        windowPicture_.forget();
+        hasThumbnail_ = false;
         pictures_.setPhotographs(nullptr);
         takeScene(done.scene->state, done.scene->scene);
         session_ = {.state = done.scene->state,
@@ -228,10 +235,30 @@ void ViewerWindow::takeWhatWasRead()
     }
 }
 
+// Of the shape that is shown, from the picture that was drawn last.
+void ViewerWindow::keepThumbnail()
+{
+    hasThumbnail_ = true;
+    if (!shape_ || session_.state.show != Show::picture || session_.state.framing != Framing()) {
+        return;
+    }
+    const Image picture = readCodes(context_, pictures_.main());
+    const int longer = std::max(picture.width, picture.height);
+    const float scale = std::min(1.0f, static_cast<float>(layout().shapeSize()) / static_cast<float>(longer));
+    const Image small = reducedCodes(picture, wholeZoom(picture.width, picture.height, scale));
+    shapes_.insert_or_assign(*shape_, uploadPicture(context_, small));
+}
+
 void ViewerWindow::takeScene(const ViewState& state, const LoadedScene& scene)
 {
     const bool isOtherMaterial = scene.main != pictures_.scene().main;
+    if (hasThumbnail_) {
+        keepThumbnail(); // as it was left
+    }
     pictures_.setScene(scene, state);
+    const std::optional<size_t> target = chosenTarget(state, input_.choices);
+    shape_ = target ? std::optional(input_.choices.targets[*target].path) : std::nullopt;
+    hasThumbnail_ = false;
     if (isOtherMaterial && !scene.main->surface.materials.empty()) {
         lightBall_.setSurface(scene.main->surface);
         input_.pixel.reset();
@@ -378,6 +405,7 @@ void ViewerWindow::describePanels(const Stage& stage)
     const DrawnSurface* drawn = pictures_.scene().main.get();
     const PanelInputs inputs{.choices = input_.choices,
                              .thumbnails = thumbnails_,
+                             .shapes = shapes_,
                              .ball = drawn->surface.materials.empty() ? nullptr : ball_,
                              .drawn = drawn,
                              .recent = recent_.files(),
@@ -385,7 +413,8 @@ void ViewerWindow::describePanels(const Stage& stage)
                              .verdicts = pictures_.verdicts(),
                              .pixel = pictures_.isTurning() ? std::nullopt : input_.pixel,
                              .comparisonFigures = comparison_.figures(),
-                             .scale = stage.scale};
+                             .scale = stage.scale,
+                             .shapeSize = static_cast<float>(layout().shapeSize())};
     showPanels(session_, inputs, stage, layout().panelWidth(), placed_);
     if (comparison_.picture() == nullptr) {
         showWipeLine(session_, stage);
@@ -419,6 +448,9 @@ void ViewerWindow::drawFrame()
 {
     pace_.begin();
     drawPictures();
+    if (!hasThumbnail_ && !pictures_.isMoving()) {
+        keepThumbnail();
+    }
     placed_.clear();
     const Stage stage = this->stage();
     placePicture(stage);

@@ -13,6 +13,7 @@ constexpr float kInspectorWidth = 250, kMostInspectorShare = 0.3f;
 constexpr float kStatusHeight = 26;
 constexpr float kBallSize = 200;
 constexpr float kThumbnailSize = 48;
+constexpr float kShapeSize = 24; // a row of the panel
 
 } // namespace
 
@@ -40,6 +41,11 @@ int WindowLayout::ballSize() const
 int WindowLayout::thumbnailSize() const
 {
     return static_cast<int>(kThumbnailSize * scale);
+}
+
+int WindowLayout::shapeSize() const
+{
+    return static_cast<int>(kShapeSize * scale);
 }
 
 } // namespace nacre

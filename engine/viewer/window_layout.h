@@ -16,6 +16,7 @@ struct WindowLayout {
     Area area() const;            // between them, above the status line
     int ballSize() const;         // pixels across the ball of lights
     int thumbnailSize() const;    // of a material
+    int shapeSize() const;        // of a shape's thumbnail
 };
 
 } // namespace nacre

@@ -1,5 +1,10 @@
 #include "engine/viewer/window_picture.h"
 
+#include <bit>
+
+#include <glm/common.hpp>
+
+#include "engine/files/hash_random.h"
 #include "engine/gpu/pass.h"
 
 namespace nacre {
@@ -30,6 +35,41 @@ void recordClear(VkCommandBuffer commands, const Texture& target, std::span<cons
     vkCmdEndRendering(commands);
 }
 
+// The same texture in the same place.
+uint64_t lookOf(const PlacedPicture& picture)
+{
+    const glm::vec2 corner = screenFromPicture({0, 0}, picture.framing, picture.area);
+    return hashOf(reinterpret_cast<uint64_t>(picture.texture->image()) ^ hashOf(std::bit_cast<uint64_t>(corner)));
+}
+
+PlacedPicture cutTo(const PixelBox& box, PlacedPicture picture)
+{
+    const Area before = picture.area;
+    picture.area.origin = glm::max(before.origin, glm::vec2(box.low));
+    picture.area.size =
+        glm::max(glm::min(before.origin + before.size, glm::vec2(box.high)) - picture.area.origin, 0.0f);
+    picture.framing.centre += (picture.area.middle() - before.middle()) / picture.framing.zoom;
+    return picture;
+}
+
+// Still ones as far as the boxes reach: elsewhere ImGui may have drawn over them.
+std::vector<PlacedPicture> picturesIn(std::span<const PixelBox> boxes, std::span<const PlacedPicture> pictures)
+{
+    std::vector<PlacedPicture> drawn;
+    for (const PlacedPicture& picture : pictures) {
+        if (!picture.isStill) {
+            drawn.push_back(picture);
+            continue;
+        }
+        for (const PixelBox& box : boxes) {
+            if (!overlap(box, boxOf(picture)).isEmpty()) {
+                drawn.push_back(cutTo(box, picture));
+            }
+        }
+    }
+    return drawn;
+}
+
 } // namespace
 
 ImageUse WindowPicture::follow(const Swapchain& swapchain)
@@ -50,14 +90,14 @@ void WindowPicture::record(VkCommandBuffer commands, const Swapchain& swapchain,
     ++frames_;
     tiles_.begin(glm::ivec2(swapchain.extent().width, swapchain.extent().height));
     for (const PlacedPicture& picture : pictures) {
-        tiles_.add(boxOf(picture), frames_);
+        tiles_.add(boxOf(picture), picture.isStill ? lookOf(picture) : frames_);
     }
     ui.addLooks(tiles_);
     const std::vector<PixelBox> changed = tiles_.changed();
 
     imageBarrier(commands, picture_->image(), before, kDrawnTo);
     recordClear(commands, *picture_, changed, background);
-    recordPictures(commands, *picture_, pictures);
+    recordPictures(commands, *picture_, picturesIn(changed, pictures));
     ui.record(commands, *picture_, changed);
     imageBarrier(commands, picture_->image(), kDrawnTo, kCopiedFrom);
 

@@ -12,10 +12,13 @@ class WindowPicture {
 public:
     explicit WindowPicture(const Context& context) : context_(context) {}
 
-    // The frame between ui's last begin() and end() over the pictures, which count as changed, on `background` (codes
-    // in [0,1]); copied to the swapchain's image, which is then to be presented.
+    // The frame between ui's last begin() and end() over the pictures, which count as changed unless they are still, on
+    // `background` (codes in [0,1]); copied to the swapchain's image, which is then to be presented.
     void record(VkCommandBuffer commands, const Swapchain& swapchain, size_t image,
                 std::span<const PlacedPicture> pictures, const glm::vec3& background, UiPass& ui);
+
+    // Textures of still pictures are gone, so that others may have their handles.
+    void forget() { tiles_.forget(); }
 
 private:
     // In what use the picture is.
