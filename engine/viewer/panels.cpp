@@ -88,10 +88,17 @@ void showWipeLine(const Session& session, const Stage& stage)
 
 bool showValue(const char* label, float& value, float least, float most, const char* format, bool isLogarithmic)
 {
+    const float before = value;
     const bool isChanged = ImGui::SliderFloat(label, &value, least, most, format,
                                               isLogarithmic ? ImGuiSliderFlags_Logarithmic : ImGuiSliderFlags_None);
+    float& beforeClick = *ImGui::GetStateStorage()->GetFloatRef(ImGui::GetItemID(), before);
     if (ImGui::IsItemHovered() && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) {
+        value = beforeClick; // the first of the two has moved the slider
         ImGui::SetKeyboardFocusHere(-1);
+        return true;
+    }
+    if (ImGui::IsItemActivated()) {
+        beforeClick = before;
     }
     return isChanged;
 }

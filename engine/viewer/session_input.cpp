@@ -31,14 +31,16 @@ std::optional<std::filesystem::path> SessionInput::take(const WindowEvents& even
     if (events.pressed[0] || events.pressed[1] || events.pressed[2]) {
         session.message.clear();
     }
+    const bool isTyping = ImGui::GetIO().WantTextInput;
+    session.history.follow(session.state, isHeld_ || isTyping || session.playing); // what panels have changed since
     takeMouse(events, window, stage);
-    const bool isHeld = window.isHeld(0) || window.isHeld(1) || window.isHeld(2);
-    session.history.follow(session.state, isHeld || session.playing);
-    if (!isHeld) {
+    isHeld_ = window.isHeld(0) || window.isHeld(1) || window.isHeld(2);
+    session.history.follow(session.state, isHeld_ || isTyping || session.playing);
+    if (!isHeld_) {
         atRest_ = session.state.lights;
     }
     movesLights_ = session.playing || !(session.state.lights == atRest_);
-    if (!ImGui::GetIO().WantTextInput) {
+    if (!isTyping) {
         for (const KeyPress& press : events.keys) {
             session.message.clear();
             act(session, choices, press);

@@ -54,7 +54,8 @@ private:
     Drag drag_ = Drag::none;
     int dragButton_ = 0;
     glm::vec2 cursor_{0, 0};
-    std::vector<LightSource> atRest_; // lights when no button was held
+    bool isHeld_ = false;             // a button, when events were last taken
+    std::vector<LightSource> atRest_; // lights when none was
     bool movesLights_ = false;
     std::optional<Undo> undo_;
 };

@@ -48,6 +48,12 @@ press ctrl+shift+z; screenshot
 check "Ctrl+Shift+Z does it again" cmp "$dragged" "$shot"
 press r; screenshot
 check "R goes back" cmp "$first" "$shot"
+xdotool mousemove 1090 297 click --repeat 2 --delay 60 1 sleep 0.2 type 45
+xdotool key Return mousemove 640 340 sleep 0.5; screenshot # until then keys are text
+check "a double click on the azimuth types it" awk -F'["",]+' '/"light"/ { getline; exit !($2 > 0.1 && $2 == $3) }' \
+    "$(state_of "$shot")"
+press r; screenshot
+check "which R takes back" cmp "$first" "$shot"
 
 drag 2 600 300 640 320 680 310; screenshot; turned=$shot
 check "a middle drag turns a surface" holds "$shot" '"turn"'
