@@ -5,6 +5,7 @@
 
 #include <glm/common.hpp>
 
+#include "engine/exchange/relief_mesh.h"
 #include "engine/files/whole_file.h"
 #include "engine/surface/object_places.h"
 #include "shared/lens.h"
@@ -214,13 +215,10 @@ GltfMesh relief(const Surface& surface, const Image& height, const GltfSurfaceOp
     const float step = std::max(1.0f, static_cast<float>(std::max(width, rows)) / (options.largestGrid - 1));
     const int nx = static_cast<int>(std::ceil(width / step)) + 1, ny = static_cast<int>(std::ceil(rows / step)) + 1;
     const int reach = std::max(1, static_cast<int>(step / 2));
-    const float metres = options.width / static_cast<float>(width);
+    const PictureMetres picture(surface.normals, height, options.width);
     const auto xOf = [&](int i) { return std::min(i * step, static_cast<float>(width)); };
     const auto yOf = [&](int j) { return std::min(j * step, static_cast<float>(rows)); };
-    const ObjectExtent extent = extentOf(surface.normals);
-    const auto across = static_cast<float>(extent.width);
-    const float plane = outlineHeight(surface.normals, height);
-    const glm::vec3 middle(extent.middle.x - 0.5f * width, 0.5f * rows - extent.middle.y, plane);
+    const glm::vec2 middle(extentOf(surface.normals).middle);
     const glm::vec4 viewpoint = viewpointOf(surface, kFrontView);
     std::vector<int> numbers(static_cast<size_t>(nx) * ny, -1);
     GltfMesh mesh;
@@ -229,10 +227,9 @@ GltfMesh relief(const Surface& surface, const Image& height, const GltfSurfaceOp
         if (known < 0) {
             known = static_cast<int>(mesh.positions.size());
             const float x = xOf(i), y = yOf(j);
-            const float over = heightAt(surface, height, x, y, reach) - plane;
-            const glm::vec3 place =
-                placeOnRay(viewpoint, glm::vec2(x - extent.middle.x, extent.middle.y - y) / across, over / across);
-            mesh.positions.push_back(metres * (across * place + middle));
+            const float over = heightAt(surface, height, x, y, reach) - picture.middle.z;
+            const glm::vec2 beside = glm::vec2(x - middle.x, middle.y - y) / picture.across;
+            mesh.positions.push_back(picture.of(placeOnRay(viewpoint, beside, over / picture.across)));
             mesh.normals.emplace_back(0, 0, 1);
             mesh.tangents.emplace_back(1, 0, 0, 1);
             mesh.uvs.emplace_back(x / width, y / rows);

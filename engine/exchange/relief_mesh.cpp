@@ -25,22 +25,28 @@ template <class Value> void addBytes(const Value& value, std::string& bytes)
 
 } // namespace
 
+PictureMetres::PictureMetres(const NormalMap& normals, const Image& height, float width)
+    : metres(width / static_cast<float>(normals.width))
+{
+    const ObjectExtent extent = extentOf(normals);
+    across = static_cast<float>(extent.width);
+    middle = {extent.middle.x - 0.5 * normals.width, 0.5 * normals.height - extent.middle.y,
+              outlineHeight(normals, height)};
+}
+
 GltfMesh heightMesh(Surface surface, const Image& height, float width)
 {
     surface.height = height;
     surface.places.clear();
     const NormalMap& map = surface.normals;
-    const ObjectExtent extent = extentOf(map);
-    const float metres = width / static_cast<float>(map.width);
-    const glm::vec3 middle(extent.middle.x - 0.5 * map.width, 0.5 * map.height - extent.middle.y,
-                           outlineHeight(map, height));
+    const PictureMetres picture(map, height, width);
     const std::vector<glm::vec3> places = pixelPlaces(surface);
     std::vector<int64_t> numbers(places.size(), -1);
     GltfMesh mesh;
     for (size_t i = 0; i < places.size(); ++i) {
         if (map.confidence[i] > 0) {
             numbers[i] = static_cast<int64_t>(mesh.positions.size());
-            mesh.positions.push_back(metres * (static_cast<float>(extent.width) * places[i] + middle));
+            mesh.positions.push_back(picture.of(places[i]));
             mesh.normals.push_back(map.normals[i]);
             const size_t column = i % map.width, row = i / map.width;
             mesh.uvs.emplace_back((static_cast<float>(column) + 0.5f) / static_cast<float>(map.width),
