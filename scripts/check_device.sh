@@ -18,6 +18,7 @@ failed=0
 echo "nacre        $("$nacre" --version)"
 echo "machine      $(uname -srm), $(nproc) cores"
 "$nacre" info || exit 3
+echo "validation   of Vulkan's calls, in the tests"
 "$nacre" bench --size 16x16 --lights 1 --repeats 1 --residual-components 0 >/dev/null || exit 3 # says why it cannot draw
 
 # Suites that draw; each in a process of its own, so that one that dies does not hide the rest.
@@ -38,6 +39,7 @@ check_suites "${tests%system_tests}target_tests" 'MeshRaster*:Relief*'
 "$tests" --gtest_filter='Kept/Golden.IsDrawn/*' --gtest_brief=1 2>&1 | sed -n 's/^  \([a-z_]*: [0-9].*\)/golden       \1/p'
 
 unset NACRE_VALIDATION # which takes time
+printf '\nFrames: a ball frame is one lookup a pixel, a direct one evaluates every light in it; the floor reads its inputs alone.\n'
 "$nacre" bench --size 1280x720 --lights 1 --lights 4 --lights 16 || failed=1
 if [ -n "$(command -v Xvfb)" ] && [ -n "$(command -v xdotool)" ]; then
     scripts/viewer_figures.sh "$nacre" 2>/dev/null || echo "window       cannot be shown by this device under Xvfb"

@@ -60,7 +60,7 @@ fi
 "$nacre" bench --size 1280x720 --lights 4 --residual-components 0 --most-direct-lights 1 | grep -m 2 'ball' # wall time
 
 open_window --size 730x694 "${lights[@]}" "$work/bumpy.nacre" --state "$flat"
-sleep 3
+sleep 10 # until the opening hint has gone
 idle=10
 before=$(ticks); sleep $idle; after=$(ticks)
 awk -v t=$((after - before)) -v s=$idle 'BEGIN { printf "idle        %.1f %% of one core over %d s\n", t / s, s }'

@@ -33,7 +33,7 @@ enum class Action {
 };
 
 // Key codes: ASCII for what prints (letters large), GLFW's numbers for the rest.
-inline constexpr int kKeyEscape = 256;
+inline constexpr int kKeyEscape = 256, kKeyEnter = 257;
 inline constexpr int kKeyF12 = 301;
 
 enum class Held { any, none, shift, control, both, controlOrBoth }; // modifiers that a binding asks for

@@ -40,8 +40,10 @@ std::optional<std::filesystem::path> SessionInput::take(const WindowEvents& even
         atRest_ = session.state.lights;
     }
     movesLights_ = session.playing || !(session.state.lights == atRest_);
-    if (!isTyping) {
-        for (const KeyPress& press : events.keys) {
+    for (const KeyPress& press : events.keys) {
+        if (isTyping && press.key == kKeyEnter) {
+            ImGui::SetWindowFocus(nullptr); // ImGui does not see a key that is let go before the next frame
+        } else if (!isTyping) {
             session.message.clear();
             act(session, choices, press);
         }

@@ -172,7 +172,8 @@ UiPass::UiPass(const Context& context, const Window& window, const Swapchain& sw
       descriptors_(context.device(), makeDescriptorPool(context.device()))
 {
     ImGui::CreateContext();
-    ImGui::GetIO().IniFilename = nullptr; // leaves no files behind
+    ImGui::GetIO().IniFilename = nullptr;       // leaves no files behind
+    ImGui::GetIO().MouseDoubleClickTime = 0.5f; // seconds; frames may take a tenth of one, and a click two of them
     chooseFont(scale_);
     chooseStyle(scale_);
     ImGui_ImplGlfw_InitForVulkan(window.get(), true); // its callbacks call those that are there

@@ -35,7 +35,6 @@ namespace {
 constexpr double kProgressSeconds = 0.1; // between looks at what is loading
 constexpr double kRestSeconds = 0.25;    // after which what is held counts as still
 constexpr double kLeastWait = 1e-3;
-constexpr int kToType = 20;            // frames: ImGui takes a key, or its being let go, in each
 constexpr double kTitleSeconds = 0.25; // between changes of the title while frames follow each other
 constexpr glm::vec3 kBackground{0.11f, 0.11f, 0.12f};
 
@@ -182,9 +181,6 @@ void ViewerWindow::takeEvents(const WindowEvents& events)
     }
     sinceEvents_.lap();
     pace_.settle();
-    if (ImGui::GetIO().WantTextInput) {
-        pace_.ask(kToType);
-    }
     rests_ = false;
     if (!events.keys.empty() || events.pressed[0] || events.pressed[1] || events.pressed[2]) {
         hint_.leave(sinceOpened_.seconds());

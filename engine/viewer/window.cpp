@@ -16,7 +16,8 @@ namespace nacre {
 namespace {
 
 static_assert(GLFW_MOUSE_BUTTON_LEFT == 0 && GLFW_MOUSE_BUTTON_RIGHT == 1 && GLFW_MOUSE_BUTTON_MIDDLE == 2);
-static_assert(kKeyEscape == GLFW_KEY_ESCAPE && kKeyF12 == GLFW_KEY_F12 && GLFW_KEY_A == 'A');
+static_assert(kKeyEscape == GLFW_KEY_ESCAPE && kKeyEnter == GLFW_KEY_ENTER && kKeyF12 == GLFW_KEY_F12 &&
+              GLFW_KEY_A == 'A');
 
 constexpr double kDoubleClickSeconds = 0.35;
 constexpr double kDoubleClickPixels = 4;

@@ -48,8 +48,9 @@ press ctrl+shift+z; screenshot
 check "Ctrl+Shift+Z does it again" cmp "$dragged" "$shot"
 press r; screenshot
 check "R goes back" cmp "$first" "$shot"
-xdotool mousemove 1090 297 click --repeat 2 --delay 60 1 sleep 0.2 type 45
-xdotool key Return mousemove 640 340 sleep 0.5; screenshot # until then keys are text
+xdotool mousemove 1090 297 sleep 0.3 click --repeat 2 --delay 60 1 sleep 1 type 45
+sleep 0.7
+xdotool key Return mousemove 640 340 sleep 0.7; screenshot # until then keys are text
 check "a double click on the azimuth types it" awk -F'["",]+' '/"light"/ { getline; exit !($2 > 0.1 && $2 == $3) }' \
     "$(state_of "$shot")"
 press r; screenshot
@@ -172,8 +173,14 @@ open_window --size 128x128
 screenshot
 check "without arguments a material is on a head" holds "$shot" '"onto": "make:head"'
 check_later "and its state gives the picture" reproduces "$shot"
+first=$shot
+settles before
 press t; screenshot
 check "T steps through the generated shapes" holds "$shot" '"onto": "make:sphere"'
+for _ in $(seq 4); do press t; screenshot; done
+check "and comes back to the first" cmp "$first" "$shot"
+settles after
+check "which shapes that were shown have thumbnails beside" differs "$work/before.png" "$work/after.png"
 check "no message of Vulkan's validation with generated shapes" quits_quietly
 
 shots=$work/shots5; rm -rf "$shots"; mkdir -p "$shots"
