@@ -48,7 +48,7 @@ press ctrl+shift+z; screenshot
 check "Ctrl+Shift+Z does it again" cmp "$dragged" "$shot"
 press r; screenshot
 check "R goes back" cmp "$first" "$shot"
-xdotool mousemove 1090 297 sleep 0.3 click --repeat 2 --delay 60 1 sleep 1 type 45
+xdotool mousemove 1090 297 sleep 1 click --repeat 2 --delay 180 1 sleep 1 type 45
 sleep 0.7
 xdotool key Return mousemove 640 340 sleep 0.7; screenshot # until then keys are text
 check "a double click on the azimuth types it" awk -F'["",]+' '/"light"/ { getline; exit !($2 > 0.1 && $2 == $3) }' \
