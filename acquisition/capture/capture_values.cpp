@@ -54,12 +54,13 @@ void requireOneSize(std::span<const ReadHeader> headers)
 // another format may have been turned upright.
 void requireOneOrientation(std::span<const ReadHeader> headers)
 {
-    for (const auto& [exposure, header] : headers) {
-        const auto first = std::find_if(headers.begin(), headers.end(),
-                                        [&](const ReadHeader& other) { return other.header.format == header.format; });
-        if (header.orientation != first->header.orientation) {
-            throw Error(exposure->file,
-                        fmt::format("is turned by its EXIF orientation {}, {} by {}", header.orientation,
+    for (const ReadHeader& read : headers) {
+        const auto first = std::find_if(headers.begin(), headers.end(), [&](const ReadHeader& other) {
+            return other.header.format == read.header.format;
+        });
+        if (read.header.orientation != first->header.orientation) {
+            throw Error(read.exposure->file,
+                        fmt::format("is turned by its EXIF orientation {}, {} by {}", read.header.orientation,
                                     first->exposure->file.filename().string(), first->header.orientation),
                         "one orientation in all files, as of one still camera (exiftool -n -Orientation=1 FILES)");
         }

@@ -69,7 +69,7 @@ std::vector<uint8_t> loadLabels(const JsonNode& name, const Surface& surface)
     const bool ofMaterials = !surface.materials.empty() || surface.parts.empty();
     const size_t count = ofMaterials ? surface.materials.size() : surface.parts.size();
     for (size_t i = 0; i < labels.size(); ++i) {
-        labels[i] = static_cast<uint8_t>(image.values[i] * 255.0f + 0.5f);
+        labels[i] = static_cast<uint8_t>(std::lround(image.values[i] * 255.0f));
         if (labels[i] != Surface::kNoMaterial && labels[i] >= count) {
             throw Error(fileOf(name), fmt::format("names {} {}", ofMaterials ? "material" : "part", labels[i]),
                         fmt::format("indices below {}, or 255 for none", count));
@@ -262,7 +262,7 @@ ResidualLayer residualOf(const JsonNode& node, const Surface& surface)
     for (int k = 0; k < layer.components; ++k) {
         const Image picture = loadPicture(folder / componentFile(k), layer.width, layer.height, 1);
         for (size_t i = 0; i < layer.pixelCount(); ++i) {
-            layer.codes[codeIndex(layer, k, i)] = static_cast<uint8_t>(picture.values[i] * 255.0f + 0.5f);
+            layer.codes[codeIndex(layer, k, i)] = static_cast<uint8_t>(std::lround(picture.values[i] * 255.0f));
         }
         for (size_t i = 0; i < layer.nodes.size(); ++i) {
             layer.weights.push_back(weights.rgb(static_cast<int>(i), k));

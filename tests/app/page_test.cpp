@@ -32,8 +32,9 @@ Material judgedMaterial(const LambertGgx& model, TableDomain domain, const std::
     Material material = materialOf(model, domain, {24, 12, 8});
     material.name = name;
     for (size_t i = 0; i < material.table.values.size(); ++i) {
-        material.table.values[i] *= 1 + 0.1f * static_cast<float>(i / (24 * 12)); // along phiD
-        material.table.error.push_back(0.4f * static_cast<float>(i % 24) / 23);   // uncertain away from the highlight
+        const size_t phiD = i / (24 * 12);
+        material.table.values[i] *= 1 + 0.1f * static_cast<float>(phiD);
+        material.table.error.push_back(0.4f * static_cast<float>(i % 24) / 23); // uncertain away from the highlight
     }
     return material;
 }
