@@ -8,6 +8,7 @@
 
 #include "engine/files/error.h"
 #include "engine/files/whole_file.h"
+#include "engine/surface/surface.h"
 
 namespace nacre {
 namespace fs = std::filesystem;
@@ -64,6 +65,9 @@ void requireFile(const fs::path& file, bool replace)
     }
     if (fs::is_directory(file)) {
         throw Error(file, "is a folder", "the name of a file");
+    }
+    if (replace && fs::exists(file) && fs::exists(file.parent_path() / kSurfaceDescription)) {
+        throw Error(file, "lies in a surface, whose files belong together", "a name outside its folder");
     }
     requireFree(file, replace);
 }

@@ -8,7 +8,7 @@ namespace nacre {
 // the output cannot be written: it exists without `replace`, its folder is missing or may not be written. An empty path
 // is an output that was not asked for.
 
-// A file that is replaced, or a stream, which takes it without `replace`.
+// A file that is replaced, unless it lies in a surface, or a stream, which takes it without `replace`.
 void requireFile(const std::filesystem::path& file, bool replace);
 
 // A folder that is replaced as a whole, and then only by its like: an entry of it has to begin with `mark`, as one does

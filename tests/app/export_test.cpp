@@ -225,6 +225,8 @@ TEST_F(Export, RefusesWithTheRightCode)
     expectOneLine(run({"--write-normals", path("a.exr"), "--albedo", path("a.exr")}), Error::kUsage, {"twice"});
     expectOneLine(run({"--ptm", path("a.ptm"), "--size", "24"}), Error::kUsage, {"--size 24"});
     expectOneLine(run({"--write-normals", path("a.nacre/normals.exr")}), Error::kData, {"exists already"});
+    expectOneLine(run({"--write-normals", path("a.nacre/normals.exr"), "--force"}), Error::kData,
+                  {"lies in a surface"});
     expectOneLine(run({"--ptm", path("none/a.ptm")}), Error::kData, {"folder does not exist"});
     expectOneLine(runNacre({"export", path("no.nacre"), "--ptm", path("a.ptm")}), Error::kData, {"no.nacre"});
     expectFolderHolds({});
