@@ -89,6 +89,14 @@ drag 1 2260 300 2200 260 2160 220; screenshot
 far=$(directions "$shot")
 check "no message of Vulkan's validation at 192 dots an inch" quits_quietly
 stop_display
+start_display 2560x1440
+open_window "$work/bumpy.nacre" --size 730x694 --ui-scale 2
+xdotool windowsize --sync "$x_window" 2560 1440
+settles resized
+drag 1 2260 300 2200 260 2160 220; screenshot
+check "--ui-scale 2 looks as 192 dots an inch do" test "$(directions "$shot")" = "$far"
+check "and quits" quits_quietly
+stop_display
 start_display 1280x720
 open_window "$work/bumpy.nacre" --size 730x694
 drag 1 1130 150 1100 130 1080 110; screenshot
