@@ -29,7 +29,7 @@ void requireFree(const fs::path& output, bool replace)
     if (!replace && fs::exists(output)) {
         throw Error(output, "exists already", kFreeName);
     }
-    WholeOutput(output, true);
+    const WholeOutput allowed(output, true);
     requireWritable(output, (output.has_filename() ? output : output.parent_path()).parent_path());
 }
 
