@@ -312,7 +312,8 @@ TEST(Display, AutomaticExposurePutsThe99thPercentileAt0Point9)
 {
     Image radiance(100, 10, 3);
     for (size_t i = 0; i < 3000; ++i) {
-        radiance.values[i] = 0.02f * (i / 3 + 1);
+        const size_t pixel = i / 3;
+        radiance.values[i] = 0.02f * static_cast<float>(pixel + 1);
     }
     const float gain = std::exp2(automaticExposure(radiance));
     EXPECT_NEAR(gain * 0.02f * 990, 0.9, 0.002);
