@@ -83,6 +83,20 @@ void refitAlbedo(const Observations& block, const NormalMap& normals, const Loca
     });
 }
 
+namespace {
+
+// The median or the mean; 0 of none.
+double middleOf(std::vector<float>& values, bool byMedian)
+{
+    if (values.empty()) {
+        return 0;
+    }
+    return byMedian ? double{quantile(values, 0.5)}
+                    : std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
+
+} // namespace
+
 glm::vec3 normaliseAlbedo(bool haveOneAlbedo, Image& albedo, BrdfTable& table)
 {
     std::array<std::vector<float>, 3> factors;
@@ -94,11 +108,7 @@ glm::vec3 normaliseAlbedo(bool haveOneAlbedo, Image& albedo, BrdfTable& table)
     }
     glm::vec3 taken(1);
     for (int c = 0; c < 3; ++c) {
-        const double middle = factors[c].empty() ? 0
-                              : haveOneAlbedo    ? double{quantile(factors[c], 0.5)}
-                                                 : std::accumulate(factors[c].begin(), factors[c].end(), 0.0) /
-                                                    static_cast<double>(factors[c].size());
-        const double divisor = middle > 0 ? middle : 1;
+        const double middle = middleOf(factors[c], haveOneAlbedo), divisor = middle > 0 ? middle : 1;
         taken[c] = static_cast<float>(divisor);
         for (size_t i = c; i < albedo.values.size(); i += 3) {
             albedo.values[i] = static_cast<float>(albedo.values[i] / divisor);

@@ -57,14 +57,19 @@ RootSlopes ownSlopes(const SlopedReflectance& sloped, const PixelGuess& guess, c
     }
     const LobeAt lobe = lobeAt(reflectance.lobe, light, glm::dot(guess.normal, light.half));
     const Between knot = between(cosine * (kShadeKnots - 1), kShadeKnots);
-    const CouplingPlace coupling = couplingPlace(cosine, guess.normal.z, light);
-    const float shade = std::exp(reflectance.shadeAt(cosine) + reflectance.couplingAt(cosine, guess.normal.z, light));
-    float shadeSlope = (reflectance.shade[knot.knot + 1] - reflectance.shade[knot.knot]) * (kShadeKnots - 1),
-          slantSlope = 0; // of u + w by n.l and by n.v
-    for (size_t k = 0; k < 8 && !reflectance.coupling.empty(); ++k) {
-        shadeSlope += coupling.slopesByL[k] * reflectance.coupling[coupling.knots[k]];
-        slantSlope += coupling.slopesByV[k] * reflectance.coupling[coupling.knots[k]];
+    // w and its derivatives by n.l and by n.v.
+    const std::vector<float>& coupling = reflectance.coupling;
+    const CouplingPlace place = coupling.empty() ? CouplingPlace{} : couplingPlace(cosine, guess.normal.z, light);
+    float coupled = 0, coupledByL = 0, coupledByV = 0;
+    for (size_t k = 0; k < 8 && !coupling.empty(); ++k) {
+        const float w = coupling[place.knots[k]];
+        coupled += place.weights[k] * w;
+        coupledByL += place.slopesByL[k] * w;
+        coupledByV += place.slopesByV[k] * w;
     }
+    const float shade = std::exp(reflectance.shadeAt(cosine) + coupled),
+                shadeSlope =
+                    (reflectance.shade[knot.knot + 1] - reflectance.shade[knot.knot]) * (kShadeKnots - 1) + coupledByL;
     // What is shown, a p + b a, and its derivatives by n.l, cos(thetaH), log a, T and u.
     float value, byCosine, byHalf, byScale, byLobe, byShade;
     if (reflectance.additive) {
@@ -88,7 +93,7 @@ RootSlopes ownSlopes(const SlopedReflectance& sloped, const PixelGuess& guess, c
     const float half = 0.5f / std::max(result.root, kLeastRoot); // d sqrt(v) = dv / 2 sqrt(v)
     const auto byStep = [&](const glm::vec3& step) {
         return half * (byCosine * glm::dot(step, light.direction) + byHalf * glm::dot(step, light.half) +
-                       byShade * slantSlope * step.z);
+                       byShade * coupledByV * step.z);
     };
     result.byPixel = {byStep(basis.across), byStep(basis.along), half * byScale};
     for (int k = 0; k < 4; ++k) {
@@ -100,9 +105,9 @@ RootSlopes ownSlopes(const SlopedReflectance& sloped, const PixelGuess& guess, c
     result.unknowns[5] = kShadeUnknowns + knot.knot + 1;
     result.byUnknown[5] = half * byShade * knot.share;
     result.count = 6;
-    for (size_t k = 0; k < 8 && !reflectance.coupling.empty(); ++k) {
-        result.unknowns[result.count] = kCouplingUnknowns + coupling.knots[k];
-        result.byUnknown[result.count++] = half * byShade * coupling.weights[k];
+    for (size_t k = 0; k < 8 && !coupling.empty(); ++k) {
+        result.unknowns[result.count] = kCouplingUnknowns + place.knots[k];
+        result.byUnknown[result.count++] = half * byShade * place.weights[k];
     }
     return result;
 }
